@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// The main job: a host grid and wells in, a hybrid mesh out. The steps are those of method.md §0.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/case.h"
+#include "model/mesh.h"
+
+namespace wellknit {
+
+/// How the mapping between the reference and the real space is corrected (method.md §7).
+enum class MappingMethod {
+  automatic,  ///< the paper's objective, then smoothing, then stronger means
+  paper       ///< the objective of Mouton, Bennis and Borouchaki as written
+};
+
+struct BuildOptions {
+  MappingMethod mapping = MappingMethod::automatic;
+  int threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
+};
+
+struct WellSummary {
+  std::string name;
+  bool meshed = false;
+  std::string mode;     ///< "layered" or "swept"; "host cells" when not meshed
+  std::string reason;   ///< why it was not meshed and what would help; empty when meshed
+  std::int32_t cavity = -1;  ///< 0-based; wells with the same number share one cavity
+  std::int64_t radial_cells = 0;
+  std::int64_t segments = 0;
+  double drainage_radius = 0.0;      ///< m
+  std::int64_t connections = 0;      ///< cells open to the bore
+  std::int64_t index_connections = 0;  ///< of these, host or transition cells connected by a Peaceman index
+  std::vector<std::string> notes;
+};
+
+struct CavitySummary {
+  std::int64_t cells_removed = 0;
+  std::int64_t cells_refined = 0;
+  std::int64_t transition_cells = 0;
+  std::int64_t transition_faces = 0;     ///< all faces of the transition cells
+  std::int64_t transition_vertices = 0;
+  std::int64_t cavity_rounds = 0;        ///< until every face was admissible
+  std::int64_t boundary_faces = 0;
+  std::int64_t boundary_faces_found = 0; ///< found again in the power diagram as the very same vertex set
+  std::int64_t inverted_tetrahedra = 0;  ///< before the correction of the mapping
+  std::int64_t loops = 0;
+  std::int64_t points_inserted = 0;
+  std::int64_t cells_not_seen_from_centre = 0;
+};
+
+struct StepTime {
+  std::string step;
+  double seconds = 0.0;
+};
+
+struct BuildSummary {
+  std::vector<WellSummary> wells;     ///< in the order given
+  std::vector<CavitySummary> cavities;
+  std::vector<StepTime> times;
+  std::vector<std::string> notes;
+};
+
+struct BuildResult {
+  Mesh mesh;
+  BuildSummary summary;
+};
+
+/// Builds the mesh. A well that cannot be meshed keeps its host cells with a Peaceman index; its summary says why.
+/// Throws InvalidInput when the options or the grid make no sense (a negative radius, a well outside of the grid).
+BuildResult build_mesh(const Case& source, const std::vector<Well>& wells, const BuildOptions& options);
+
+}  // namespace wellknit

@@ -1,0 +1,13 @@
+# SPDX-FileCopyrightText: 2026 The wellknit authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+# All from Debian 12; why each one: docs/decisions/0001-dependencies.md
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt 9 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(CGAL 5.5 REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(CLI11 2.1 REQUIRED)
+find_package(nlohmann_json 3 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(FastFloat REQUIRED)
+find_package(tomlplusplus REQUIRED)

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// Wells as the user gives them: a path, its opening to flow, and the options of its radial mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/geometry.h"
+#include "model/ids.h"
+
+namespace wellknit {
+
+/// A path in space. Both arrays have one length, 2 or more; measured depth rises strictly.
+struct Trajectory {
+  std::vector<double> measured_depth;  ///< m
+  std::vector<Vec3> points;            ///< (x, y, depth), m, in the grid's frame
+};
+
+/// A stretch of measured depth, m.
+struct MeasuredDepthRange {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// One cell of a well's COMPDAT record, K range expanded. Only what the deck states is set.
+struct DeckCompletion {
+  HostCellId cell;
+  bool open = true;
+  char direction = 'Z';                         ///< X, Y or Z
+  double diameter = 0.0;                        ///< m; 0: not given
+  double skin = 0.0;
+  std::optional<double> connection_factor;      ///< m3
+  std::optional<double> permeability_thickness; ///< m3 (permeability * length)
+};
+
+enum class MeshMode { automatic, layered, swept };
+
+/// Radial mesh of one well. Lengths in metres.
+struct RadialOptions {
+  double drainage_radius = 15.0;      ///< of the outermost ring
+  double bore_radius = 0.1;
+  int sectors = 10;                   ///< at least 3
+  int rings = 5;                      ///< at least 1
+  std::optional<double> growth;       ///< ratio of successive ring widths' radii; unset: (R / r_w)^(1/rings)
+  std::optional<int> segments;        ///< swept: cells along the well; unset: one for about one drainage radius
+  MeshMode mode = MeshMode::automatic;
+};
+
+enum class WellType { producer, injector };
+
+struct Well {
+  std::string name;
+  Trajectory trajectory;
+  bool approximate_path = false;              ///< a path through cell centres, made from COMPDAT
+  std::vector<MeasuredDepthRange> open;       ///< empty: open over its whole length
+  std::vector<DeckCompletion> completions;    ///< from the deck; empty for a trajectory file
+  double skin = 0.0;
+  WellType type = WellType::producer;
+  std::optional<double> reference_depth;      ///< m, of the bottom-hole pressure
+  RadialOptions radial;
+};
+
+}  // namespace wellknit
