@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "cli/build_request.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <toml++/toml.h>
+
+#include "cli/usage_error.h"
+
+namespace wellknit {
+
+namespace {
+
+template <class Number>
+Number number(const std::string& text, const char* expected) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(static_cast<double>(value))) {
+    throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
+  }
+  return value;
+}
+
+double length_above_zero(const std::string& text) {
+  constexpr const char* expected = "a length above 0 in metres";
+  const double value = number<double>(text, expected);
+  if (value <= 0.0) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
+  return value;
+}
+
+int count_from(int least, const std::string& text) {
+  const std::string expected = fmt::format("a whole number of {} or more", least);
+  const int value = number<int>(text, expected.c_str());
+  if (value < least) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
+  return value;
+}
+
+double growth_above_one(const std::string& text) {
+  constexpr const char* expected = "a ratio above 1";
+  const double value = number<double>(text, expected);
+  if (value <= 1.0) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
+  return value;
+}
+
+std::string not_empty(const std::string& text, const char* expected) {
+  if (text.empty()) throw UsageError(fmt::format("expected {}, found nothing", expected));
+  return text;
+}
+
+/// The entry of `table` that has this name.
+template <class Value, std::size_t size>
+Value choice(const std::string& text, const std::array<std::pair<std::string_view, Value>, size>& table) {
+  std::string names;
+  for (const auto& [name, value] : table) {
+    if (text == name) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw UsageError(fmt::format("expected one of {}, found '{}'", names, text));
+}
+
+constexpr std::array<std::pair<std::string_view, MeshMode>, 3> mesh_modes{
+    {{"auto", MeshMode::automatic}, {"layered", MeshMode::layered}, {"swept", MeshMode::swept}}};
+constexpr std::array<std::pair<std::string_view, MappingMethod>, 2> mapping_methods{
+    {{"auto", MappingMethod::automatic}, {"paper", MappingMethod::paper}}};
+
+template <class Value, std::size_t size>
+std::string_view name_in(Value value, const std::array<std::pair<std::string_view, Value>, size>& table) {
+  for (const auto& [name, entry] : table) {
+    if (entry == value) return name;
+  }
+  return "";
+}
+
+/// An option whose other values are promised for later: only what works today is taken.
+void accept_only(const std::string& text, std::initializer_list<std::string_view> works, std::string_view later) {
+  std::string names;
+  for (const std::string_view name : works) {
+    if (text == name) return;
+    names += (names.empty() ? "" : " or ") + std::string(name);
+  }
+  throw UsageError(fmt::format("expected {}, found '{}'; {} not available in this version", names, text, later));
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+bool is_true(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  throw UsageError(fmt::format("expected true or false, found '{}'", text));
+}
+
+OutputRequest parse_write(const std::string& text) {
+  const std::size_t equal = text.find('=');
+  if (equal == std::string::npos || equal == 0 || equal + 1 == text.size()) {
+    throw UsageError(fmt::format("expected FORMAT=PATH, found '{}'", text));
+  }
+  return {text.substr(0, equal), text.substr(equal + 1)};
+}
+
+/// True where `key` is one of the radial mesh.
+bool set_radial(RadialChoice& radial, std::string_view key, const std::string& value) {
+  if (key == "radius") {
+    radial.radius = length_above_zero(value);
+  } else if (key == "bore") {
+    radial.bore = length_above_zero(value);
+  } else if (key == "sectors") {
+    radial.sectors = count_from(3, value);
+  } else if (key == "rings") {
+    radial.rings = count_from(1, value);
+  } else if (key == "growth") {
+    radial.growth = growth_above_one(value);
+  } else if (key == "segments") {
+    radial.segments = count_from(1, value);
+  } else if (key == "mode") {
+    radial.mode = choice(value, mesh_modes);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+template <std::size_t key_size>
+struct Key {
+  char text[key_size]{};
+  // NOLINTNEXTLINE: a string as a template argument needs the implicit conversion
+  constexpr Key(const char (&from)[key_size]) { std::copy(from, from + key_size, text); }
+};
+
+/// The setter of the option for all wells that has a well key's name.
+template <Key key>
+void set_default(BuildRequest& request, const std::string& value) {
+  set_radial(request.radial, key.text, value);
+}
+
+using Kind = BuildOption::Kind;
+
+constexpr std::array options{
+    BuildOption{"well", "FILE[,key=value...]",
+                "A trajectory; keys: name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin", Kind::list,
+                [](BuildRequest& r, const std::string& v) { r.wells.push_back(parse_well(v)); }},
+    BuildOption{"deck-wells", "all|NAME,...", "Wells of the deck's own schedule", Kind::value,
+                [](BuildRequest& r, const std::string& v) {
+                  for (const std::string& name : split(not_empty(v, "all or names of wells"), ',')) {
+                    r.deck_wells.push_back(not_empty(name, "the name of a well"));
+                  }
+                }},
+    BuildOption{"grid-include", "FILE", "A further GRDECL file, read after CASE", Kind::list,
+                [](BuildRequest& r, const std::string& v) { r.grid_includes.push_back(not_empty(v, "a file")); }},
+    BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
+    BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value, set_default<"bore">},
+    BuildOption{"sectors", "N", "Cells around a well [10]", Kind::value, set_default<"sectors">},
+    BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5]", Kind::value, set_default<"rings">},
+    BuildOption{"growth", "RATIO", "Ratio of successive ring radii [(radius/bore)^(1/rings)]", Kind::value,
+                set_default<"growth">},
+    BuildOption{"segments", "N", "Cells along a swept well [one for about one drainage radius]", Kind::value,
+                set_default<"segments">},
+    BuildOption{"mode", "auto|layered|swept", "How the radial mesh follows the well [auto]", Kind::value,
+                set_default<"mode">},
+    BuildOption{"refine", "auto|off", "Refinement of the host; this version never refines", Kind::value,
+                [](BuildRequest&, const std::string& v) { accept_only(v, {"auto", "off"}, "a number of levels is"); }},
+    BuildOption{"fault-policy", "stop", "What a well does at a fault: it stops", Kind::value,
+                [](BuildRequest&, const std::string& v) { accept_only(v, {"stop"}, "heal is"); }},
+    BuildOption{"metric", "geometric", "Metric of the reference space", Kind::value,
+                [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
+    BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
+    BuildOption{"output", "OUT.h5", "The mesh file", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.output = not_empty(v, "a file"); }},
+    BuildOption{"write", "FORMAT=PATH", "A further output; `wellknit formats` lists the formats", Kind::list,
+                [](BuildRequest& r, const std::string& v) { r.writes.push_back(parse_write(v)); }},
+    BuildOption{"threads", "N", "Threads [all]; the result does not depend on it", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.threads = count_from(1, v); }},
+    BuildOption{"overwrite", "", "Replace outputs that exist", Kind::flag,
+                [](BuildRequest& r, const std::string& v) { r.overwrite = is_true(v); }},
+    BuildOption{"quiet", "", "No summary", Kind::flag,
+                [](BuildRequest& r, const std::string& v) { r.quiet = is_true(v); }},
+    BuildOption{"json", "", "The summary as JSON", Kind::flag,
+                [](BuildRequest& r, const std::string& v) { r.json = is_true(v); }},
+    BuildOption{"strict", "", "Fail when a well cannot be meshed", Kind::flag,
+                [](BuildRequest& r, const std::string& v) { r.strict = is_true(v); }},
+};
+
+template <class Value>
+void take(std::optional<Value>& value, const std::optional<Value>& fallback) {
+  if (!value) value = fallback;
+}
+
+template <class Value>
+void take(std::vector<Value>& value, const std::vector<Value>& fallback) {
+  if (value.empty()) value = fallback;
+}
+
+RadialChoice overlay(const RadialChoice& given, const RadialChoice& fallback) {
+  RadialChoice out = given;
+  take(out.radius, fallback.radius);
+  take(out.bore, fallback.bore);
+  take(out.sectors, fallback.sectors);
+  take(out.rings, fallback.rings);
+  take(out.growth, fallback.growth);
+  take(out.segments, fallback.segments);
+  take(out.mode, fallback.mode);
+  return out;
+}
+
+template <class Value>
+void insert(toml::table& table, std::string_view key, const std::optional<Value>& value) {
+  if (value) table.insert(key, *value);
+}
+
+void insert(toml::table& table, const RadialChoice& radial) {
+  insert(table, "radius", radial.radius);
+  insert(table, "bore", radial.bore);
+  insert(table, "sectors", radial.sectors);
+  insert(table, "rings", radial.rings);
+  insert(table, "growth", radial.growth);
+  insert(table, "segments", radial.segments);
+  if (radial.mode) table.insert("mode", name_of(*radial.mode));
+}
+
+/// The defaults of RadialOptions, spelled out where they are numbers.
+RadialChoice with_defaults(const RadialChoice& given) {
+  const RadialOptions defaults;
+  RadialChoice fallback;
+  fallback.radius = defaults.drainage_radius;
+  fallback.sectors = defaults.sectors;
+  fallback.rings = defaults.rings;
+  fallback.mode = defaults.mode;
+  return overlay(given, fallback);
+}
+
+toml::array array_of(const std::vector<std::string>& values) {
+  toml::array out;
+  for (const std::string& value : values) out.push_back(value);
+  return out;
+}
+
+}  // namespace
+
+std::span<const BuildOption> build_options() { return options; }
+
+void set_well_key(WellRequest& well, std::string_view key, const std::string& value) {
+  if (set_radial(well.radial, key, value)) return;
+  if (key == "name") {
+    // The name becomes a group of the mesh file and a word in a deck.
+    if (value.empty() || value.find_first_of("/'\" \t") != std::string::npos) {
+      throw UsageError(fmt::format("expected a name without spaces, quotes and slashes, found '{}'", value));
+    }
+    well.name = value;
+  } else if (key == "from") {
+    well.from = number<double>(value, "a measured depth in metres");
+  } else if (key == "to") {
+    well.to = number<double>(value, "a measured depth in metres");
+  } else if (key == "skin") {
+    well.skin = number<double>(value, "a number");
+  } else {
+    throw UsageError(fmt::format(
+        "unknown key '{}'; the keys are name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin", key));
+  }
+}
+
+WellRequest parse_well(const std::string& text) {
+  WellRequest well;
+  const std::vector<std::string> parts = split(text, ',');
+  std::size_t first_key = 1;
+  well.file = parts[0];
+  // A part without '=' belongs to the file's name.
+  while (first_key < parts.size() && parts[first_key].find('=') == std::string::npos) well.file += "," + parts[first_key++];
+  if (well.file.empty()) throw UsageError(fmt::format("expected FILE[,key=value...], found '{}'", text));
+  for (std::size_t i = first_key; i < parts.size(); ++i) {
+    const std::size_t equal = parts[i].find('=');
+    if (equal == std::string::npos) throw UsageError(fmt::format("expected key=value, found '{}'", parts[i]));
+    const std::string key = parts[i].substr(0, equal);
+    set_well_key(well, key, parts[i].substr(equal + 1));
+  }
+  return well;
+}
+
+BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
+  BuildRequest out = given;
+  take(out.case_path, fallback.case_path);
+  take(out.grid_includes, fallback.grid_includes);
+  take(out.wells, fallback.wells);
+  take(out.deck_wells, fallback.deck_wells);
+  out.radial = overlay(given.radial, fallback.radial);
+  take(out.mapping, fallback.mapping);
+  take(out.writes, fallback.writes);
+  take(out.output, fallback.output);
+  take(out.threads, fallback.threads);
+  out.overwrite = given.overwrite || fallback.overwrite;
+  out.quiet = given.quiet || fallback.quiet;
+  out.json = given.json || fallback.json;
+  out.strict = given.strict || fallback.strict;
+  return out;
+}
+
+void validate(const BuildRequest& request) {
+  if (!request.case_path) throw UsageError("no CASE given: name a deck, a grid or a run file");
+  if (!request.output && request.writes.empty()) throw UsageError("no output given: add -o OUT.h5 or --write FORMAT=PATH");
+  for (const WellRequest& well : request.wells) {
+    const RadialOptions radial = resolve(well.radial, request.radial, RadialOptions{});
+    if (radial.bore_radius >= radial.drainage_radius) {
+      throw UsageError(fmt::format("--well {}: the bore radius {} m is not below the drainage radius {} m", well.file,
+                                   radial.bore_radius, radial.drainage_radius));
+    }
+    if (well.from && well.to && *well.from >= *well.to) {
+      throw UsageError(fmt::format("--well {}: from={} is not above to={}", well.file, *well.from, *well.to));
+    }
+  }
+}
+
+RadialOptions resolve(const RadialChoice& own, const RadialChoice& all, const RadialOptions& start) {
+  const RadialChoice choice = overlay(own, all);
+  RadialOptions out = start;
+  out.drainage_radius = choice.radius.value_or(start.drainage_radius);
+  out.bore_radius = choice.bore.value_or(start.bore_radius);
+  out.sectors = choice.sectors.value_or(start.sectors);
+  out.rings = choice.rings.value_or(start.rings);
+  if (choice.growth) out.growth = choice.growth;
+  if (choice.segments) out.segments = choice.segments;
+  out.mode = choice.mode.value_or(start.mode);
+  return out;
+}
+
+std::string config_text(const BuildRequest& request) {
+  toml::table table;
+  insert(table, "case", request.case_path);
+  if (!request.grid_includes.empty()) table.insert("grid-include", array_of(request.grid_includes));
+  if (!request.deck_wells.empty()) table.insert("deck-wells", array_of(request.deck_wells));
+  insert(table, with_defaults(request.radial));
+  table.insert("mapping", name_of(request.mapping.value_or(MappingMethod::automatic)));
+  table.insert("fault-policy", "stop");
+  table.insert("metric", "geometric");
+  table.insert("refine", "off");
+  toml::array wells;
+  for (const WellRequest& well : request.wells) {
+    toml::table entry;
+    entry.insert("file", well.file);
+    insert(entry, "name", well.name);
+    insert(entry, well.radial);
+    insert(entry, "from", well.from);
+    insert(entry, "to", well.to);
+    insert(entry, "skin", well.skin);
+    wells.push_back(std::move(entry));
+  }
+  if (!wells.empty()) table.insert("well", std::move(wells));
+  std::ostringstream out;
+  out << table << '\n';
+  return out.str();
+}
+
+std::string_view name_of(MeshMode mode) { return name_in(mode, mesh_modes); }
+
+std::string_view name_of(MappingMethod mapping) { return name_in(mapping, mapping_methods); }
+
+}  // namespace wellknit

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "cli/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "cli/commands.h"
+
+namespace wellknit {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Text = std::back_insert_iterator<std::string>;
+
+/// 12345678 as 12,345,678.
+std::string grouped(std::int64_t count) {
+  std::string digits = fmt::format("{}", count);
+  for (std::size_t end = digits.size(); end > 3 && digits[end - 4] != '-'; end -= 3) digits.insert(end - 3, ",");
+  return digits;
+}
+
+std::string counted(std::int64_t count, const char* noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+double total_seconds(const std::vector<StepTime>& times) {
+  return std::accumulate(times.begin(), times.end(), 0.0, [](double sum, const StepTime& t) { return sum + t.seconds; });
+}
+
+/// The cavity that the well lies in; its figures are shared with the other wells of that cavity.
+const CavitySummary* cavity_of(const BuildSummary& build, const WellSummary& well) {
+  if (well.cavity < 0 || static_cast<std::size_t>(well.cavity) >= build.cavities.size()) return nullptr;
+  return &build.cavities[static_cast<std::size_t>(well.cavity)];
+}
+
+/// The well in whose row the figures of this well's cavity stand; null when it is this one's.
+const WellSummary* first_of_cavity(const BuildSummary& build, const WellSummary& well) {
+  const auto same = [&](const WellSummary& other) { return well.cavity >= 0 && other.cavity == well.cavity; };
+  const auto first = std::ranges::find_if(build.wells, same);
+  return first == build.wells.end() || &*first == &well ? nullptr : &*first;
+}
+
+void write_well_row(Text out, const BuildReport& report, const WellSummary& well, std::size_t width) {
+  const CavitySummary* cavity = cavity_of(report.build, well);
+  const bool own_row = well.meshed && cavity != nullptr && first_of_cavity(report.build, well) == nullptr;
+  const auto figure = [&](std::int64_t CavitySummary::*member) { return own_row ? grouped(cavity->*member) : "-"; };
+  fmt::format_to(out, "  {:{}}  {:10} {:>7} {:>7} {:>10} {:>6} {:>8} {:>5} {:>6} {:>11}\n", well.name, width, well.mode,
+                 figure(&CavitySummary::cells_removed), figure(&CavitySummary::cells_refined),
+                 figure(&CavitySummary::transition_cells), well.meshed ? grouped(well.radial_cells) : "-",
+                 figure(&CavitySummary::inverted_tetrahedra), figure(&CavitySummary::loops),
+                 figure(&CavitySummary::points_inserted), grouped(well.connections));
+}
+
+/// What was not meshed and why, what is connected by index, and what the steps had to say.
+void write_well_notes(Text out, const BuildReport& report, const WellSummary& well) {
+  if (const WellSummary* first = first_of_cavity(report.build, well)) {
+    fmt::format_to(out, "  {}: in one cavity with {}, whose row counts both\n", well.name, first->name);
+  }
+  if (!well.meshed) fmt::format_to(out, "  {}: not meshed: {}\n", well.name, well.reason);
+  if (well.index_connections > 0) {
+    fmt::format_to(out, "  {}: {} of {} connected by a Peaceman index\n", well.name, well.index_connections,
+                   counted(well.connections, "cell"));
+  }
+  for (const std::string& note : well.notes) fmt::format_to(out, "  {}: {}\n", well.name, note);
+}
+
+void write_wells(Text out, const BuildReport& report) {
+  if (report.build.wells.empty()) {
+    fmt::format_to(out, "no wells: the host alone\n");
+    return;
+  }
+  std::size_t width = 4;
+  for (const WellSummary& well : report.build.wells) width = std::max(width, well.name.size());
+  fmt::format_to(out, "{:{}}  {:10} {:>7} {:>7} {:>10} {:>6} {:>8} {:>5} {:>6} {:>11}\n", "wells", width + 2, "mode", "removed",
+                 "refined", "transition", "radial", "inverted", "loops", "points", "connections");
+  for (const WellSummary& well : report.build.wells) write_well_row(out, report, well, width);
+  for (const WellSummary& well : report.build.wells) write_well_notes(out, report, well);
+}
+
+void write_cavities(Text out, const BuildReport& report) {
+  std::int64_t faces = 0;
+  std::int64_t found = 0;
+  std::int64_t unseen = 0;
+  for (const CavitySummary& cavity : report.build.cavities) {
+    faces += cavity.boundary_faces;
+    found += cavity.boundary_faces_found;
+    unseen += cavity.cells_not_seen_from_centre;
+  }
+  if (report.build.cavities.empty()) return;
+  fmt::format_to(out, "boundary    {} of {} found again as the same vertices; {} not seen whole from the centre\n",
+                 grouped(found), counted(faces, "cavity face"), counted(unseen, "cell"));
+}
+
+void write_quality(Text out, const QualityReport& quality) {
+  fmt::format_to(out, "quality           faces   non-orthogonality  K-non-orthogonality            planarity\n");
+  fmt::format_to(out, "  mean, max                           degrees              degrees\n");
+  for (std::size_t i = 0; i < face_pair_count; ++i) {
+    const PairQuality& pair = quality.pairs[i];
+    if (pair.faces == 0) continue;
+    fmt::format_to(out, "  {:15} {:>6} {:>9.2f} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2g} {:>9.2g}\n",
+                   name_of(static_cast<FacePair>(i)), pair.faces, pair.non_orthogonality.mean, pair.non_orthogonality.max,
+                   pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max, pair.planarity.mean, pair.planarity.max);
+  }
+}
+
+void write_mesh(Text out, const BuildReport& report) {
+  const QualityReport& quality = report.quality;
+  const auto& kinds = quality.cells_of_kind;
+  fmt::format_to(out, "mesh        {} ({} host, {} refined, {} transition, {} radial), {}, {} vertices, {}\n",
+                 counted(std::accumulate(kinds.begin(), kinds.end(), std::int64_t{0}), "cell"), grouped(kinds[0]),
+                 grouped(kinds[1]), grouped(kinds[2]), grouped(kinds[3]), counted(quality.faces, "face"),
+                 grouped(quality.vertices), counted(quality.connections, "connection"));
+  fmt::format_to(out, "pore volume {:.6g} m3\n", report.pore_volume);
+}
+
+void write_times(Text out, const BuildReport& report) {
+  fmt::format_to(out, "time        {:.2f} s", total_seconds(report.times));
+  const char* separator = ": ";
+  for (const StepTime& time : report.times) {
+    fmt::format_to(out, "{}{} {:.2f}", separator, time.step, time.seconds);
+    separator = ", ";
+  }
+  fmt::format_to(out, "\n");
+}
+
+Json json_of(const WellSummary& well) {
+  return {{"name", well.name},
+          {"meshed", well.meshed},
+          {"mode", well.mode},
+          {"reason", well.reason},
+          {"cavity", well.cavity},
+          {"radial_cells", well.radial_cells},
+          {"segments", well.segments},
+          {"drainage_radius", well.drainage_radius},
+          {"connections", well.connections},
+          {"index_connections", well.index_connections},
+          {"notes", well.notes}};
+}
+
+Json json_of(const CavitySummary& cavity) {
+  return {{"cells_removed", cavity.cells_removed},
+          {"cells_refined", cavity.cells_refined},
+          {"transition_cells", cavity.transition_cells},
+          {"transition_faces", cavity.transition_faces},
+          {"transition_vertices", cavity.transition_vertices},
+          {"cavity_rounds", cavity.cavity_rounds},
+          {"boundary_faces", cavity.boundary_faces},
+          {"boundary_faces_found", cavity.boundary_faces_found},
+          {"inverted_tetrahedra", cavity.inverted_tetrahedra},
+          {"loops", cavity.loops},
+          {"points_inserted", cavity.points_inserted},
+          {"cells_not_seen_from_centre", cavity.cells_not_seen_from_centre}};
+}
+
+}  // namespace
+
+std::string to_text(const BuildReport& report) {
+  std::string text;
+  const Text out(text);
+  fmt::format_to(out, "case        {}: {} x {} x {} cells\n", report.case_path, report.dimensions[0], report.dimensions[1],
+                 report.dimensions[2]);
+  write_wells(out, report);
+  write_cavities(out, report);
+  write_mesh(out, report);
+  write_quality(out, report.quality);
+  for (const std::string& note : report.notes) fmt::format_to(out, "note        {}\n", note);
+  for (const std::string& note : report.build.notes) fmt::format_to(out, "note        {}\n", note);
+  write_times(out, report);
+  for (const WrittenFile& file : report.files) {
+    fmt::format_to(out, "wrote       {} ({}, {:.1f} MB)\n", file.path, file.format, static_cast<double>(file.bytes) / 1e6);
+    for (const std::string& note : file.notes) fmt::format_to(out, "  {}\n", note);
+  }
+  return text;
+}
+
+std::string to_json(const BuildReport& report) {
+  Json json;
+  json["program"] = program_and_version();
+  json["case"] = report.case_path;
+  json["source_dimensions"] = report.dimensions;
+  json["wells"] = Json::array();
+  for (const WellSummary& well : report.build.wells) json["wells"].push_back(json_of(well));
+  json["cavities"] = Json::array();
+  for (const CavitySummary& cavity : report.build.cavities) json["cavities"].push_back(json_of(cavity));
+  json["pore_volume"] = report.pore_volume;
+  json["quality"] = Json::parse(report.quality.to_json());
+  json["notes"] = report.notes;
+  for (const std::string& note : report.build.notes) json["notes"].push_back(note);
+  json["times"] = Json::array();
+  for (const StepTime& time : report.times) json["times"].push_back({{"step", time.step}, {"seconds", time.seconds}});
+  json["seconds"] = total_seconds(report.times);
+  json["outputs"] = Json::array();
+  for (const WrittenFile& file : report.files) {
+    json["outputs"].push_back({{"format", file.format}, {"path", file.path}, {"bytes", file.bytes}, {"notes", file.notes}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wellknit
