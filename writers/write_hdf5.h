@@ -8,10 +8,12 @@
 
 #include "model/mesh.h"
 #include "model/provenance.h"
+#include "writers/output_file.h"
 
 namespace wellknit {
 
 /// Writes beside the target and renames, so that a failed run leaves nothing. Throws WriteError.
-void write_hdf5(const Mesh& mesh, const Provenance& provenance, const std::string& path);
+/// An empty `mesh.transfer` leaves out the group `transfer`.
+void write_hdf5(const Mesh& mesh, const Provenance& provenance, const std::string& path, Overwrite overwrite = Overwrite::refuse);
 
 }  // namespace wellknit
