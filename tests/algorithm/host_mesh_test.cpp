@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/host_mesh.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "model/errors.h"
+#include "tests/support/grids.h"
+#include "tests/support/host_checks.h"
+
+namespace wellknit {
+namespace {
+
+std::int64_t faces_where(const HostMesh& mesh, const auto& condition) {
+  std::int64_t count = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) count += condition(FaceId(f)) ? 1 : 0;
+  return count;
+}
+
+bool is_inner(const HostMesh& mesh, FaceId face) {
+  const HostCellId second = mesh.faces.cells[face][1];
+  return second.is_valid() && mesh.exists[second] == 1;
+}
+
+TEST(HostMesh, IsWatertightOverTheZoo) {
+  for (const auto& [name, grid] : grids::zoo()) {
+    SCOPED_TRACE(name);
+    const auto checked = check_host(grid, build_host_mesh(grid));
+    EXPECT_TRUE(checked.faults.empty()) << checked.faults.front();
+    EXPECT_LT(checked.worst_openness, 1e-12);
+    EXPECT_GT(checked.cells, 0);
+  }
+}
+
+TEST(HostMesh, IsWatertightOverRandomFaults) {
+  std::int64_t fault_faces = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    const auto grid = grids::random_faults({3, 3, 4}, seed);
+    const auto mesh = build_host_mesh(grid);
+    const auto checked = check_host(grid, mesh);
+    ASSERT_TRUE(checked.faults.empty()) << "seed " << seed << ": " << checked.faults.front();
+    ASSERT_LT(checked.worst_openness, 1e-12) << "seed " << seed;
+    fault_faces += faces_where(mesh, [&](FaceId f) { return mesh.faces.is_fault[f] == 1; });
+  }
+  EXPECT_GT(fault_faces, 200 * 100);  // else the grids would not try what they are for
+}
+
+TEST(HostMesh, CountsFacesAndVerticesOfABox) {
+  const auto mesh = build_host_mesh(grids::box({5, 4, 3}));
+  EXPECT_EQ(mesh.vertices.size(), 6U * 5U * 4U);                             // (nx+1)(ny+1)(nz+1)
+  EXPECT_EQ(mesh.faces.size(), 6U * 4U * 3U + 5U * 5U * 3U + 5U * 4U * 4U);  // along i, j, k
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return is_inner(mesh, f); }),
+            4 * 4 * 3 + 5 * 3 * 3 + 5 * 4 * 2);  // one less in each direction
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) EXPECT_EQ(mesh.faces.loop(FaceId(f)).size(), 4U);
+  EXPECT_FALSE(mesh.left_handed);
+  EXPECT_TRUE(mesh.notes.empty());
+}
+
+TEST(HostMesh, PutsTheSecondCellOnTheSideOfItsAxis) {
+  const auto grid = grids::box({3, 3, 3});
+  const auto mesh = build_host_mesh(grid);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceId face(f);
+    if (!is_inner(mesh, face)) continue;
+    const auto axis = static_cast<int>(mesh.faces.axis[face]);
+    const Vec3 normal = polygon_geometry(loop_points(mesh, face)).area_vector.normalized();
+    // x, y and depth grow with i, j, k in this box, and the smaller id comes first.
+    EXPECT_LT((normal - Vec3::Unit(axis)).norm(), 1e-12);
+  }
+}
+
+TEST(HostMesh, FanVolumesEqualBilinearVolumesWithoutFaults) {
+  for (const char* name : {"box", "wedge", "twisted", "half pinched and connected", "gap"}) {
+    for (const auto& [zoo_name, grid] : grids::zoo()) {
+      if (zoo_name != name) continue;
+      EXPECT_LT(check_host(grid, build_host_mesh(grid)).worst_volume, 1e-12) << name;
+    }
+  }
+}
+
+TEST(HostMesh, CutsAFaultOfHalfALayerIntoHalves) {
+  // Two columns of two layers of 5 m, throw 2.5 m; face width 20 m. From above: A1 | nothing 2.5 m, A1 | B1 2.5 m,
+  // A2 | B1 2.5 m, A2 | B2 2.5 m, nothing | B2 2.5 m.
+  const auto grid = grids::faulted({2, 1, 2}, 2.5);
+  const auto mesh = build_host_mesh(grid);
+  std::map<std::pair<std::int64_t, std::int64_t>, double> area;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceId face(f);
+    if (mesh.faces.is_fault[face] == 0) continue;
+    const auto [a, b] = mesh.faces.cells[face];
+    area[{a.value(), b.value()}] += polygon_geometry(loop_points(mesh, face)).area;
+  }
+  const std::map<std::pair<std::int64_t, std::int64_t>, double> expected{
+      {{0, -1}, 50.0}, {{0, 1}, 50.0}, {{1, 2}, 50.0}, {{2, 3}, 50.0}, {{3, -1}, 50.0}};  // 2.5 m * 20 m
+  ASSERT_EQ(area.size(), expected.size());
+  for (const auto& [cells, value] : expected)
+    EXPECT_NEAR(area[cells], value, 1e-9) << cells.first << ' ' << cells.second;
+}
+
+TEST(HostMesh, CutsTheTrianglesOfAScissorFault) {
+  // One layer of 5 m, the right column's throw from -2 m to +2 m over 20 m: tops cross in the middle, so do the bases.
+  // A | B: the area between max of tops and min of bases: 20 * 5 - 2 * (10 * 2 / 2) = 80. Free: 10 m2 each of A above,
+  // A below, B above, B below. Two crossings.
+  const auto grid = grids::scissor_fault({2, 1, 1}, 2.0);
+  const auto mesh = build_host_mesh(grid);
+  std::vector<double> joint;
+  std::vector<double> loose;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceId face(f);
+    if (mesh.faces.is_fault[face] == 0) continue;
+    (is_inner(mesh, face) ? joint : loose).push_back(polygon_geometry(loop_points(mesh, face)).area);
+  }
+  ASSERT_EQ(joint.size(), 1U);
+  EXPECT_NEAR(joint[0], 80.0, 1e-9);
+  ASSERT_EQ(loose.size(), 4U);
+  for (const double a : loose) EXPECT_NEAR(a, 10.0, 1e-9);
+  EXPECT_EQ(mesh.vertices.size(),
+            8U + 8U + 2U);  // four pillars outside with two nodes, two inside with four, two crossings
+  const VertexId crossing(16);
+  EXPECT_LT((mesh.vertices[crossing] - Vec3(10.0, 10.0, 1000.0)).norm(), 1e-12);
+  // The tops of both cells carry the crossing: five vertices.
+  EXPECT_EQ(
+      faces_where(mesh, [&](FaceId f) { return mesh.faces.axis[f] == Axis::k && mesh.faces.loop(f).size() == 5; }), 4);
+}
+
+TEST(HostMesh, PartsOfASideAddUpToItsArea) {
+  for (const auto& [name, grid] : grids::zoo()) {
+    if (name.find("twisted") != std::string::npos || name == "left-handed" || name == "random faults")
+      continue;  // not planar
+    const auto mesh = build_host_mesh(grid);
+    EXPECT_LT(worst_side_area(grid, mesh), 1e-12) << name;
+  }
+}
+
+TEST(HostMesh, CellsOnASharedSideOfAFaultKeepTheirOwnSidesWhole) {
+  const auto mesh = build_host_mesh(grids::faulted({2, 1, 2}, 40.0));  // no contact: every side is one whole face
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return is_inner(mesh, f) && mesh.faces.axis[f] == Axis::i; }), 0);
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return mesh.faces.is_fault[f] == 1; }), 0);
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return mesh.faces.axis[f] == Axis::i; }), 2 * 4);
+}
+
+TEST(HostMesh, ConnectsAcrossAPinchOnlyWhenAsked) {
+  const auto closed = build_host_mesh(grids::pinched({2, 2, 3}, true, false));
+  const auto open = build_host_mesh(grids::pinched({2, 2, 3}, true, true));
+  const auto pinches = [](const HostMesh& mesh) {
+    return faces_where(mesh, [&](FaceId f) { return mesh.faces.is_pinch[f] == 1; });
+  };
+  EXPECT_EQ(pinches(closed), 0);
+  EXPECT_EQ(pinches(open), 4);  // one in each column
+  EXPECT_EQ(closed.faces.size(), open.faces.size() + 4);
+  for (std::size_t f = 0; f < open.faces.size(); ++f) {
+    if (open.faces.is_pinch[FaceId(f)] == 0) continue;
+    const auto [a, b] = open.faces.cells[FaceId(f)];
+    EXPECT_EQ(b.value() - a.value(), 2 * 4);  // layers 0 and 2
+  }
+  EXPECT_EQ(std::count(open.exists.begin(), open.exists.end(), 1), 8);
+}
+
+TEST(HostMesh, LeavesGapsOpen) {
+  const auto mesh = build_host_mesh(grids::with_gap({2, 1, 2}));
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return is_inner(mesh, f) && mesh.faces.axis[f] == Axis::k; }), 0);
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return mesh.faces.axis[f] == Axis::k; }),
+            8);  // top and base of four cells
+}
+
+TEST(HostMesh, NamesInactiveNeighbours) {
+  auto grid = grids::box({3, 1, 1});
+  grid.active = {1, 0, 1};
+  const auto mesh = build_host_mesh(grid);
+  EXPECT_EQ(mesh.faces.size(), 12U);  // two cells of six faces that share none
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return mesh.faces.cells[f][1] == HostCellId(1); }), 2);
+}
+
+TEST(HostMesh, DropsFacesOfAWedgeThatHaveNoExtent) {
+  const auto mesh = build_host_mesh(grids::wedge({1, 1, 1}));
+  // Triangles at both sides, a quad at i = 1, top and base; nothing at i = 0.
+  EXPECT_EQ(mesh.faces.size(), 5U);
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return mesh.faces.loop(f).size() == 3; }), 2);
+  EXPECT_NEAR(mesh.volume[HostCellId(0)], 10.0 * 20.0 * 5.0 / 2.0, 1e-9);
+}
+
+TEST(HostMesh, KnowsLeftHandedGridsAndKeepsVolumesPositive) {
+  const auto grid = grids::left_handed({3, 3, 3});
+  const auto mesh = build_host_mesh(grid);
+  EXPECT_TRUE(mesh.left_handed);
+  EXPECT_LT(bilinear_hexahedron_volume(grid.corners(HostCellId(0))), 0.0);
+  EXPECT_GT(mesh.volume[HostCellId(0)], 0.0);
+}
+
+TEST(HostMesh, TakesLayersNumberedUpwards) {
+  // The scissor fault with layers in reverse: the same faces, cells renamed.
+  const auto down = grids::scissor_fault({4, 4, 3}, 7.0);
+  auto up = down;
+  for (std::int64_t c = 0; c < up.cell_count(); ++c) {
+    const auto [i, j, k] = up.ijk(HostCellId(c));
+    for (int corner = 0; corner < 8; ++corner)
+      up.zcorn[up.zcorn_index({i, j, 2 - k}, corner & 1, (corner >> 1) & 1, 1 - (corner >> 2))] =
+          down.zcorn[down.zcorn_index({i, j, k}, corner & 1, (corner >> 1) & 1, corner >> 2)];
+  }
+  const auto mesh = build_host_mesh(up);
+  EXPECT_TRUE(mesh.left_handed);
+  const auto checked = check_host(up, mesh);
+  EXPECT_TRUE(checked.faults.empty()) << checked.faults.front();
+  EXPECT_LT(checked.worst_volume, 1e-12);
+  EXPECT_EQ(mesh.faces.size(), build_host_mesh(down).faces.size());
+}
+
+TEST(HostMesh, MergesCornersWithinTheTolerance) {
+  auto grid = grids::box({2, 1, 1});
+  grid.zcorn[grid.zcorn_index({1, 0, 0}, 0, 0, 0)] += 0.5 * pillar_merge_tolerance;
+  EXPECT_EQ(build_host_mesh(grid).vertices.size(), 12U);
+  grid.zcorn[grid.zcorn_index({1, 0, 0}, 0, 0, 0)] += 2.0 * pillar_merge_tolerance;
+  EXPECT_EQ(build_host_mesh(grid).vertices.size(), 13U);
+}
+
+TEST(HostMesh, GivesReversedCornersNoThicknessAndSaysSo) {
+  auto grid = grids::box({2, 1, 2});
+  grid.zcorn[grid.zcorn_index({0, 0, 0}, 0, 0, 1)] = 999.0;  // base above the top on one pillar
+  const auto mesh = build_host_mesh(grid);
+  ASSERT_EQ(mesh.notes.size(), 1U);
+  EXPECT_NE(mesh.notes[0].find("1 cells have corners in reverse order"), std::string::npos) << mesh.notes[0];
+  EXPECT_NE(mesh.notes[0].find("(1, 1, 1)"), std::string::npos) << mesh.notes[0];
+  EXPECT_EQ(mesh.corner(HostCellId(0), 0, 0, 0), mesh.corner(HostCellId(0), 0, 0, 1));
+  const auto checked = check_host(grid, mesh);
+  EXPECT_TRUE(checked.faults.empty()) << checked.faults.front();
+}
+
+TEST(HostMesh, CutsOverlappingLayersAndSaysSo) {
+  auto grid = grids::box({1, 1, 2});
+  for (int corner = 0; corner < 4; ++corner)  // the upper cell's base 2 m below the lower one's top
+    grid.zcorn[grid.zcorn_index({0, 0, 0}, corner & 1, corner >> 1, 1)] += 2.0;
+  const auto mesh = build_host_mesh(grid);
+  ASSERT_EQ(mesh.notes.size(), 1U);
+  EXPECT_NE(mesh.notes[0].find("1 cells begin above the base"), std::string::npos) << mesh.notes[0];
+  EXPECT_NEAR(mesh.volume[HostCellId(1)], 10.0 * 20.0 * 3.0, 1e-9);
+  EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return is_inner(mesh, f); }), 1);
+}
+
+TEST(HostMesh, ThrowsWhenNothingHasAVolume) {
+  auto grid = grids::box({2, 2, 2});
+  std::fill(grid.active.begin(), grid.active.end(), std::uint8_t{0});
+  EXPECT_THROW((void)build_host_mesh(grid), InvalidInput);
+  grid = grids::box({2, 2, 2});
+  grid.zcorn.pop_back();
+  EXPECT_THROW((void)build_host_mesh(grid), InvalidInput);
+}
+
+TEST(HostMesh, DoesNotDependOnTheNumberOfThreads) {
+  const auto grid = grids::random_faults({6, 7, 5}, 77);
+  const auto build_with = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return build_host_mesh(grid);
+  };
+  const auto one = build_with(1);
+  const auto two = build_with(2);
+  EXPECT_EQ(one.vertices.raw(), two.vertices.raw());
+  EXPECT_EQ(one.corner_vertex, two.corner_vertex);
+  EXPECT_EQ(one.faces.vertices, two.faces.vertices);
+  EXPECT_EQ(one.faces.vertex_start, two.faces.vertex_start);
+  EXPECT_EQ(one.faces.cells.raw(), two.faces.cells.raw());
+}
+
+TEST(HostMesh, NumbersEveryCornerOfEveryCell) {
+  for (const auto& [name, grid] : grids::zoo()) {
+    const auto mesh = build_host_mesh(grid);
+    ASSERT_EQ(mesh.corner_vertex.size(), grid.zcorn.size()) << name;
+    for (std::int64_t c = 0; c < grid.cell_count(); ++c) {
+      const auto corners = grid.corners(HostCellId(c));
+      for (std::size_t n = 0; n < 8; ++n) {
+        const Vec3 placed = mesh.vertices[mesh.corner_vertex[8 * static_cast<std::size_t>(c) + n]];
+        EXPECT_LT((placed - corners[n]).norm(), 1e-5) << name;  // merged by up to a few tolerances
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wellknit

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "tests/support/host_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace wellknit {
+
+namespace {
+
+/// A face as one of its cells sees it.
+struct SeenFace {
+  FaceId face;
+  bool outward;  ///< the loop's normal points out of the cell
+};
+
+std::vector<std::vector<SeenFace>> faces_of_cells(const HostMesh& mesh) {
+  std::vector<std::vector<SeenFace>> faces(mesh.exists.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [first, second] = mesh.faces.cells[FaceId(f)];
+    faces[first.index()].push_back({FaceId(f), true});
+    if (second.is_valid() && mesh.exists[second] == 1) faces[second.index()].push_back({FaceId(f), false});
+  }
+  return faces;
+}
+
+/// Number of directed edges that are used twice or whose reverse is missing.
+std::size_t loose_edges(const HostMesh& mesh, const std::vector<SeenFace>& faces) {
+  std::vector<std::pair<VertexId, VertexId>> edges;
+  for (const SeenFace& seen : faces) {
+    const auto loop = mesh.faces.loop(seen.face);
+    for (std::size_t v = 0; v < loop.size(); ++v) {
+      const VertexId a = loop[v];
+      const VertexId b = loop[(v + 1) % loop.size()];
+      edges.push_back(seen.outward ? std::pair(a, b) : std::pair(b, a));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t loose = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (e > 0 && edges[e] == edges[e - 1]) ++loose;
+    if (!std::binary_search(edges.begin(), edges.end(), std::pair(edges[e].second, edges[e].first))) ++loose;
+  }
+  return loose;
+}
+
+void check_loops(const HostMesh& mesh, HostCheck& out) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto loop = mesh.faces.loop(FaceId(f));
+    std::vector<VertexId> sorted(loop.begin(), loop.end());
+    std::sort(sorted.begin(), sorted.end());
+    if (loop.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      out.faults.push_back(fmt::format("face {} has a vertex twice or fewer than three", f));
+    const auto [first, second] = mesh.faces.cells[FaceId(f)];
+    const bool both = second.is_valid() && mesh.exists[second] == 1;
+    if (!first.is_valid() || mesh.exists[first] == 0 || (both && !(first < second)))
+      out.faults.push_back(fmt::format("face {} has cells {} and {}", f, first.value(), second.value()));
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3> loop_points(const HostMesh& mesh, FaceId face) {
+  std::vector<Vec3> points;
+  for (const VertexId v : mesh.faces.loop(face)) points.push_back(mesh.vertices[v]);
+  return points;
+}
+
+HostCheck check_host(const CornerPointGrid& grid, const HostMesh& mesh) {
+  HostCheck out;
+  check_loops(mesh, out);
+  const auto faces = faces_of_cells(mesh);
+  for (std::size_t c = 0; c < faces.size(); ++c) {
+    if (mesh.exists[HostCellId(c)] == 0) {
+      if (!faces[c].empty()) out.faults.push_back(fmt::format("cell {} does not exist but has faces", c));
+      continue;
+    }
+    ++out.cells;
+    if (grid.active[c] == 0) out.faults.push_back(fmt::format("cell {} exists but is inactive", c));
+    if (const auto loose = loose_edges(mesh, faces[c]); loose > 0)
+      out.faults.push_back(fmt::format("cell {} has {} loose edges", c, loose));
+    const Vec3 origin = mesh.vertices[mesh.corner_vertex[8 * c]];
+    Vec3 sum = Vec3::Zero();
+    double area = 0.0;
+    double volume = 0.0;
+    for (const SeenFace& seen : faces[c]) {
+      auto points = loop_points(mesh, seen.face);
+      for (Vec3& p : points) p -= origin;
+      const auto geometry = polygon_geometry(points);
+      const double sign = seen.outward ? 1.0 : -1.0;
+      sum += sign * geometry.area_vector;
+      area += geometry.area;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        volume += sign * geometry.mean.dot(points[v].cross(points[(v + 1) % points.size()])) / 6.0;
+    }
+    out.worst_openness = std::max(out.worst_openness, sum.norm() / area);
+    const double expected = mesh.volume[HostCellId(c)];
+    out.worst_volume = std::max(out.worst_volume, std::abs(volume / expected - 1.0));
+    if (!(expected > 0.0)) out.faults.push_back(fmt::format("cell {} has volume {}", c, expected));
+  }
+  return out;
+}
+
+double worst_side_area(const CornerPointGrid& grid, const HostMesh& mesh) {
+  // Per cell and side (low and high i, low and high j): the expected area less what the faces give.
+  static constexpr std::array<std::array<std::size_t, 4>, 4> sides{
+      {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}}};
+  std::vector<std::array<double, 4>> left(mesh.exists.size());
+  std::vector<std::array<double, 4>> whole(mesh.exists.size());
+  for (std::size_t c = 0; c < left.size(); ++c) {
+    if (mesh.exists[HostCellId(c)] == 0) continue;
+    for (std::size_t s = 0; s < 4; ++s) {
+      std::array<Vec3, 4> points;
+      for (std::size_t n = 0; n < 4; ++n) points[n] = mesh.vertices[mesh.corner_vertex[8 * c + sides[s][n]]];
+      left[c][s] = whole[c][s] = polygon_geometry(points).area;
+    }
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const FaceId face(f);
+    const auto axis = static_cast<std::size_t>(mesh.faces.axis[face]);
+    if (axis == 2) continue;
+    const auto geometry = polygon_geometry(loop_points(mesh, face));
+    for (const HostCellId cell : mesh.faces.cells[face]) {
+      if (!cell.is_valid() || mesh.exists[cell] == 0) continue;
+      Vec3 centre = Vec3::Zero();
+      for (std::size_t n = 0; n < 8; ++n) centre += mesh.vertices[mesh.corner_vertex[8 * cell.index() + n]] / 8.0;
+      const bool high =
+          (geometry.mean - centre)[static_cast<Eigen::Index>(axis)] > 0.0;  // these grids' axes are x and y
+      left[cell.index()][2 * axis + (high ? 1 : 0)] -= geometry.area;
+    }
+  }
+  double worst = 0.0;
+  for (std::size_t c = 0; c < left.size(); ++c)
+    for (std::size_t s = 0; s < 4; ++s)
+      if (grid.active[c] != 0 && whole[c][s] > 0.0) worst = std::max(worst, std::abs(left[c][s]) / whole[c][s]);
+  return worst;
+}
+
+}  // namespace wellknit
