@@ -26,7 +26,7 @@ VERTICAL_TO_HORIZONTAL = 0.1
 
 
 def structure(x, y):
-    """Depth of the top at (x, y), m: a dome off the centre, gentle waves, and a regional dip; layers dip by up to about 10 degrees."""
+    """Depth of the top at (x, y), m: a dome off the centre, gentle waves, and a regional dip; layers dip by up to 12 degrees."""
     dome = -26.0 * math.exp(-((x - 330.0) ** 2 + (y - 390.0) ** 2) / (2.0 * 170.0**2))
     waves = 2.0 * math.sin(2.0 * math.pi * x / 310.0) * math.cos(2.0 * math.pi * y / 370.0)
     return TOP + dome + waves + 0.02 * (x - y)
