@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.h"
@@ -24,24 +24,33 @@ struct Row {
   std::string name;
   std::string extensions;
   std::string description;
-  std::string document;
+  std::string document;  ///< page under docs/formats; empty: none of its own
 };
 
-std::string joined(std::span<const std::string_view> words) {
+template <class Words>
+std::string joined(const Words& words) {
   std::string text;
   for (const std::string_view word : words) text += (text.empty() ? "" : " ") + std::string(word);
   return text;
 }
 
-/// Readers and writers have the same columns.
-template <class Formats>
-std::vector<Row> rows(const Formats& formats) {
-  std::vector<Row> out;
-  for (const auto& format : formats) {
-    out.push_back({std::string(format.name), joined(format.extensions), std::string(format.description),
-                   std::string(format.document)});
+/// Formats that are read, or those that are only recognised.
+std::vector<Row> reader_rows(bool is_read) {
+  std::vector<Row> rows;
+  for (const ReaderFormat& format : reader_formats()) {
+    if (format.is_read != is_read) continue;
+    rows.push_back({std::string(format.name), joined(format.extensions), std::string(format.description), ""});
   }
-  return out;
+  return rows;
+}
+
+std::vector<Row> writer_rows() {
+  std::vector<Row> rows;
+  for (const WriterFormat& format : writer_formats()) {
+    rows.push_back({std::string(format.name), joined(format.extensions), std::string(format.description),
+                    std::string(format.document)});
+  }
+  return rows;
 }
 
 std::string plain_table(const char* title, const std::vector<Row>& rows) {
@@ -61,27 +70,31 @@ std::string plain_table(const char* title, const std::vector<Row>& rows) {
 std::string markdown_rows(const char* way, const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
-    text += fmt::format("| {} | [`{}`](docs/formats/{}) | `{}` | {} |\n", way, row.name, row.document, row.extensions,
-                        row.description);
+    const std::string name = row.document.empty() ? row.name : fmt::format("[{}](docs/formats/{})", row.name, row.document);
+    text += fmt::format("| {} | {} | `{}` | {} |\n", way, name, row.extensions, row.description);
   }
   return text;
+}
+
+std::string markdown() {
+  return "| | format | extensions | what |\n| --- | --- | --- | --- |\n" + markdown_rows("in", reader_rows(true)) +
+         markdown_rows("out", writer_rows());
+}
+
+std::string plain() {
+  std::string text = plain_table("readers (recognised by content, then by extension)", reader_rows(true)) + "\n" +
+                     plain_table("writers (--write FORMAT=PATH)", writer_rows());
+  const std::vector<Row> later = reader_rows(false);
+  return later.empty() ? text : text + "\n" + plain_table("recognised, but not read by this version", later);
 }
 
 }  // namespace
 
 Run add_formats(CLI::App& app) {
-  const auto markdown = std::make_shared<bool>(false);
-  app.add_flag("--markdown", *markdown, "As the table in README.md");
-  return [markdown] {
-    const std::vector<Row> in = rows(reader_formats());
-    const std::vector<Row> out = rows(writer_formats());
-    if (*markdown) {
-      std::cout << "| | format | extensions | what |\n| --- | --- | --- | --- |\n"
-                << markdown_rows("in", in) << markdown_rows("out", out);
-    } else {
-      std::cout << plain_table("readers (recognised by content, then by extension)", in) << '\n'
-                << plain_table("writers (--write FORMAT=PATH)", out);
-    }
+  const auto as_markdown = std::make_shared<bool>(false);
+  app.add_flag("--markdown", *as_markdown, "As the table in README.md");
+  return [as_markdown] {
+    std::cout << (*as_markdown ? markdown() : plain());
     return 0;
   };
 }
