@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "readers/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/errors.h"
+#include "readers/deck_keywords.h"
+#include "readers/deck_tokens.h"
+#include "readers/file_content.h"
+#include "readers/read_trajectory_csv.h"
+#include "readers/read_trajectory_dev.h"
+#include "readers/read_trajectory_rms.h"
+#include "readers/text.h"
+
+namespace wellknit {
+
+namespace {
+
+bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+bool is_hdf5(std::string_view text) { return starts_with(text, "\x89HDF\r\n\x1a\n"); }
+bool is_zip(std::string_view text) { return starts_with(text, "PK\x03\x04"); }
+bool is_roff(std::string_view text) { return starts_with(text, "roff-bin") || starts_with(text, "roff-asc"); }
+
+/// The first header of an Eclipse output file: a record of 16 bytes, its length in big-endian before it.
+bool begins_with_record(std::string_view text, std::initializer_list<std::string_view> names) {
+  static constexpr std::string_view length("\0\0\0\x10", 4);
+  if (!starts_with(text, length) || text.size() < 12) return false;
+  const std::string_view name = trimmed(text.substr(4, 8));
+  return names.size() == 0 || std::find(names.begin(), names.end(), name) != names.end();
+}
+bool is_egrid(std::string_view text) { return begins_with_record(text, {"FILEHEAD"}); }
+bool is_eclipse_output(std::string_view text) {
+  return begins_with_record(text, {"INTEHEAD", "SEQNUM", "DIMENS", "DIMENSIO"});
+}
+bool is_binary_grdecl(std::string_view text) { return begins_with_record(text, {}); }
+bool is_formatted_output(std::string_view text) {
+  const std::string_view start = trimmed(text.substr(0, 16));
+  return starts_with(start, "'FILEHEAD'") || starts_with(start, "'INTEHEAD'") || starts_with(start, "'DIMENS");
+}
+
+bool is_petrel_trace(std::string_view text) {
+  return upper_case(text.substr(0, 200)).find("WELL TRACE FROM PETREL") != std::string::npos;
+}
+
+bool is_deck(std::string_view text) {
+  DeckTokens tokens(text);
+  const DeckToken token = tokens.next();
+  return token.kind == DeckToken::Kind::word && upper_case(token.text) == "RUNSPEC";
+}
+
+bool is_grdecl(std::string_view text) {
+  DeckTokens tokens(text);
+  const DeckToken token = tokens.next();
+  if (token.kind != DeckToken::Kind::word || !is_keyword_name(token.text)) return false;
+  return find_deck_keyword(upper_case(token.text), DeckSection::bare) != nullptr || tokens.rest_of_line().empty();
+}
+
+bool by_extension_only(std::string_view) { return false; }
+
+std::string extension_of(const std::string& path) {
+  const auto slash = path.find_last_of('/');
+  const auto dot = path.find_last_of('.');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return {};
+  std::string out = path.substr(dot);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return out;
+}
+
+std::vector<ReaderFormat> make_table() {
+  using K = FormatKind;
+  return {
+      {"wellknit mesh",
+       K::mesh,
+       {".h5"},
+       "HDF5 signature",
+       "hybrid mesh with connections and wells",
+       true,
+       true,
+       is_hdf5},
+      {"EGRID", K::grid, {".egrid"}, "record FILEHEAD", "Eclipse binary grid", false, true, is_egrid},
+      {"Eclipse output",
+       K::grid,
+       {".grid", ".init", ".unrst"},
+       "record INTEHEAD, SEQNUM or DIMENS",
+       "Eclipse binary grid, properties or results",
+       false,
+       true,
+       is_eclipse_output},
+      {"binary GRDECL",
+       K::grid,
+       {".bgrdecl"},
+       "record with a GRDECL keyword",
+       "GRDECL keywords in binary records",
+       false,
+       true,
+       is_binary_grdecl},
+      {"formatted Eclipse output",
+       K::grid,
+       {".fegrid", ".fgrid", ".finit"},
+       "header in quotes",
+       "Eclipse grid or properties as text",
+       false,
+       true,
+       is_formatted_output},
+      {"ROFF", K::grid, {".roff"}, "'roff-bin' or 'roff-asc'", "RMS grid", false, true, is_roff},
+      {"RESQML", K::grid, {".epc"}, "ZIP signature", "RESQML package", false, true, is_zip},
+      {"Petrel well trace",
+       K::wells,
+       {},
+       "'WELL TRACE FROM PETREL'",
+       "Petrel well path",
+       false,
+       false,
+       is_petrel_trace},
+      {"RMS well",
+       K::wells,
+       {".w", ".rmswell"},
+       "version line 1.0 and a number of logs",
+       "well path with logs",
+       true,
+       false,
+       looks_like_rms_well,
+       parse_rms_well},
+      {"trajectory CSV",
+       K::wells,
+       {".csv"},
+       "header with X, Y and TVD",
+       "well path: columns MD, X, Y, TVD",
+       true,
+       false,
+       looks_like_trajectory_csv,
+       parse_trajectory_csv},
+      {"ResInsight .dev",
+       K::wells,
+       {".dev"},
+       "rows X Y TVD MD, name lines, -999",
+       "well paths, several a file",
+       true,
+       false,
+       looks_like_dev_wells,
+       parse_dev_wells},
+      {"Eclipse deck", K::grid, {".data"}, "RUNSPEC", "whole deck: grid, properties, wells", true, false, is_deck},
+      {"GRDECL",
+       K::grid,
+       {".grdecl", ".inc", ".grd"},
+       "keywords such as SPECGRID",
+       "corner-point grid and properties as text",
+       true,
+       false,
+       is_grdecl},
+      {"run file", K::grid, {".toml"}, "extension", "all that the options name", false, false, by_extension_only},
+  };
+}
+
+}  // namespace
+
+const std::vector<ReaderFormat>& reader_formats() {
+  static const std::vector<ReaderFormat> table = make_table();
+  return table;
+}
+
+const ReaderFormat* recognise_binary(std::string_view text) {
+  for (const ReaderFormat& format : reader_formats())
+    if (format.is_binary && format.recognises(text)) return &format;
+  return nullptr;
+}
+
+const ReaderFormat* recognise(const std::string& path, std::string_view text) {
+  for (const ReaderFormat& format : reader_formats())
+    if (format.recognises(text)) return &format;
+  const std::string extension = extension_of(path);
+  for (const ReaderFormat& format : reader_formats()) {
+    const bool same =
+        std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end();
+    if (same && !format.is_binary) return &format;
+  }
+  return nullptr;
+}
+
+std::string not_read_advice(const ReaderFormat& format) {
+  if (format.kind == FormatKind::mesh) return "a mesh is the result of a run; give the deck or the GRDECL file";
+  if (format.kind == FormatKind::wells) return "not read yet; write the path as CSV with MD,X,Y,TVD";
+  return "not read yet; export the grid as GRDECL text";
+}
+
+const ReaderFormat& recognise_file(const std::string& path) {
+  const FileContent content = load_file(path);
+  const auto* format = recognise(path, content.text);
+  if (format == nullptr) {
+    throw ParseError({path, 0, ""},
+                     {"a deck, a grid, a well path or a mesh file",
+                      content.text.empty() ? "an empty file" : "none that is known", "see wellknit formats"});
+  }
+  if (!format->is_read) {
+    throw ParseError({path, 0, ""}, {"a format that is read", fmt::format("a file in the format {}", format->name),
+                                     not_read_advice(*format)});
+  }
+  return *format;
+}
+
+}  // namespace wellknit

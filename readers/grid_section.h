@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// The keywords of a deck that make the grid: dimensions, geometry, units and arrays; at the end the grid in SI.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "model/corner_point_grid.h"
+#include "readers/cell_arrays.h"
+#include "readers/deck_stream.h"
+
+namespace wellknit {
+
+/// Widths of columns and layers as DXV, DYV and DZV give them, in deck units; empty: not given.
+using CellSpacing = std::array<std::vector<double>, 3>;
+
+class GridSection {
+ public:
+  explicit GridSection(DeckStream& stream) : stream_(stream), arrays_(stream) {}
+
+  // Each reads the records of the current keyword.
+  void read_dimensions();
+  void read_specgrid();
+  void read_coord();
+  void read_zcorn();
+  void read_spacing();
+  void read_mapaxes();
+  void read_grid_unit();
+  void read_pinch();
+
+  void set_units(UnitSystem units) { units_ = units; }
+  [[nodiscard]] UnitSystem units() const { return units_; }
+  [[nodiscard]] CellArrays& arrays() { return arrays_; }
+  [[nodiscard]] const CellArrays& arrays() const { return arrays_; }
+
+  /// The grid, when everything is read. Throws ParseError when geometry is missing or a value cannot be.
+  CornerPointGrid finish();
+
+ private:
+  void set_dimensions(const DeckRecord& record);
+  void make_geometry(CornerPointGrid& grid);
+  void make_block_centred(CornerPointGrid& grid);
+  void scale_lengths(CornerPointGrid& grid, double metre_per_unit) const;
+  void take_active(CornerPointGrid& grid);
+  std::vector<double> take_rock_array(const std::string& name, const CornerPointGrid& grid);
+  void take_properties(CornerPointGrid& grid);
+  [[noreturn]] void fail_missing(const std::string& keyword, ParseError::What what) const;
+
+  DeckStream& stream_;
+  CellArrays arrays_;
+  UnitSystem units_ = UnitSystem::metric;
+  std::optional<double> metre_per_grid_unit_;
+  std::vector<double> coord_;
+  std::vector<double> zcorn_;
+  CellSpacing spacing_;
+  std::optional<std::array<double, 6>> mapaxes_;
+  bool connects_across_pinch_ = false;
+};
+
+}  // namespace wellknit
