@@ -200,8 +200,7 @@ CellArray* CellArrays::find_or_make(const std::string& name, std::int64_t line) 
 
 void CellArrays::note_unknown(const std::string& name, std::int64_t line) {
   if (is_unapplied_array(name))
-    stream_.note_once(name, line,
-                      fmt::format("{} is not applied yet: transmissibilities and pore volumes are ours", name));
+    stream_.note_once(name, line, fmt::format("{} is not applied yet", name));
   else
     stream_.note_once(name, line,
                       fmt::format("{} on {}: no array of this name is carried; skipped", stream_.keyword().name,

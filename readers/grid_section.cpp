@@ -80,15 +80,19 @@ void GridSection::read_spacing() {
 }
 
 void GridSection::read_mapaxes() {
-  const DeckRecord record = stream_.next_record(6);
+  // Seven values stand in public decks that simulators run ("3000 0" for "3000.0"): the first six count.
+  const DeckRecord record = stream_.next_record(100);
   std::array<double, 6> axes{};
-  for (std::size_t item = 0; item < 6; ++item) {
+  for (std::size_t item = 0; item < axes.size(); ++item) {
     const auto value = stream_.real(record, item);
-    if (!value)
+    if (!value) {
       stream_.fail(record.line, {"6 numbers", fmt::format("{}", record.items.size()),
-                                 "two points on the y axis and one on the x axis"});
+                                 "two points on the y axis and one on the x axis, the origin second"});
+    }
     axes[item] = *value;
   }
+  if (record.items.size() > axes.size())
+    stream_.note(record.line, fmt::format("MAPAXES has {} values; the first 6 are taken", record.items.size()));
   mapaxes_ = axes;
 }
 

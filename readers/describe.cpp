@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "readers/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "model/units.h"
+#include "readers/formats.h"
+#include "readers/read_case.h"
+#include "readers/read_mesh.h"
+#include "readers/read_trajectory.h"
+
+namespace wellknit {
+
+namespace {
+
+template <class T>
+void add_range(GridDescription& out, const CornerPointGrid& grid, const std::string& name, const std::vector<T>& values,
+               double unit_size, const char* unit) {
+  PropertyRange range{name, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), unit};
+  for (std::size_t cell = 0; cell < values.size(); ++cell) {
+    if (grid.active[cell] == 0) continue;
+    range.least = std::min(range.least, static_cast<double>(values[cell]) / unit_size);
+    range.most = std::max(range.most, static_cast<double>(values[cell]) / unit_size);
+  }
+  if (range.least <= range.most) out.properties.push_back(std::move(range));
+}
+
+void add_properties(GridDescription& out, const CornerPointGrid& grid) {
+  add_range(out, grid, "PORO", grid.porosity, 1.0, "1");
+  add_range(out, grid, "NTG", grid.net_to_gross, 1.0, "1");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    add_range(out, grid, std::string("PERM") + "XYZ"[axis], grid.permeability[axis], m2_per_millidarcy, "mD");
+  for (const auto& [name, property] : grid.properties)
+    std::visit([&, &key = name](const auto& values) { add_range(out, grid, key, values, 1.0, ""); }, property);
+}
+
+/// Volumes, extent and the count of cells turned inside out.
+void measure_cells(GridDescription& out, const CornerPointGrid& grid) {
+  out.least = Vec3::Constant(std::numeric_limits<double>::infinity());
+  out.most = -out.least;
+  double pore_volume = 0.0;
+  std::int64_t negative = 0;
+  std::int64_t positive = 0;
+  for (std::size_t cell = 0; cell < grid.active.size(); ++cell) {
+    if (grid.active[cell] == 0) continue;
+    ++out.active_cells;
+    const auto corners = grid.corners(HostCellId(cell));
+    for (const Vec3& corner : corners) {
+      out.least = out.least.cwiseMin(corner);
+      out.most = out.most.cwiseMax(corner);
+    }
+    const double volume = bilinear_hexahedron_volume(corners);
+    negative += volume < 0.0 ? 1 : 0;
+    positive += volume > 0.0 ? 1 : 0;
+    out.bulk_volume += volume;
+    if (grid.porosity.empty()) continue;
+    pore_volume += volume * grid.porosity[cell] * (grid.net_to_gross.empty() ? 1.0 : grid.net_to_gross[cell]);
+  }
+  out.is_right_handed = out.bulk_volume >= 0.0;
+  out.inverted_cells = out.is_right_handed ? negative : positive;
+  out.bulk_volume = std::abs(out.bulk_volume);
+  if (!grid.porosity.empty()) out.pore_volume = std::abs(pore_volume);
+  if (out.active_cells == 0) out.least = out.most = Vec3::Zero();
+}
+
+double largest_deviation(const Trajectory& trajectory) {
+  double largest = 0.0;
+  for (std::size_t n = 1; n < trajectory.points.size(); ++n) {
+    const Vec3 step = trajectory.points[n] - trajectory.points[n - 1];
+    largest = std::max(largest, std::atan2(std::hypot(step.x(), step.y()), step.z()));
+  }
+  return largest * 180.0 / std::numbers::pi;
+}
+
+const char* name_of(CellKind kind) {
+  switch (kind) {
+    case CellKind::host: return "host";
+    case CellKind::refined: return "refined";
+    case CellKind::transition: return "transition";
+    case CellKind::radial: break;
+  }
+  return "radial";
+}
+
+MeshDescription describe(const MeshFile& file) {
+  const Mesh& mesh = file.mesh;
+  MeshDescription out;
+  out.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+  out.faces = static_cast<std::int64_t>(mesh.faces.size());
+  out.connections = static_cast<std::int64_t>(mesh.connections.size());
+  for (const CellKind kind : mesh.cells.kind.raw()) ++out.cells[name_of(kind)];
+  for (const double volume : mesh.cells.volume.raw()) out.bulk_volume += volume;
+  for (const double volume : mesh.cells.pore_volume.raw()) out.pore_volume += volume;
+  for (const MeshWell& well : mesh.wells.raw())
+    out.well_connections[well.name] = static_cast<std::int64_t>(well.connections.size());
+  out.created_by = file.provenance.created_by;
+  return out;
+}
+
+}  // namespace
+
+GridDescription describe(const CornerPointGrid& grid) {
+  GridDescription out;
+  out.dimensions = grid.dimensions;
+  out.units = std::string(name_of(grid.units));
+  out.has_map_axes = grid.mapaxes.has_value();
+  out.connects_across_pinch = grid.connects_across_pinch;
+  measure_cells(out, grid);
+  add_properties(out, grid);
+  return out;
+}
+
+WellDescription describe(const Well& well) {
+  const Trajectory& path = well.trajectory;
+  WellDescription out;
+  out.name = well.name;
+  out.stations = path.points.size();
+  out.completions = well.completions.size();
+  out.is_approximate = well.approximate_path;
+  if (!well.completions.empty()) out.type = well.type == WellType::injector ? "injector" : "producer";
+  if (path.points.empty()) return out;
+  out.measured_depth_from = path.measured_depth.front();
+  out.measured_depth_to = path.measured_depth.back();
+  out.depth_from = path.points.front().z();
+  out.depth_to = path.points.back().z();
+  out.largest_deviation = largest_deviation(path);
+  out.open_length = well.open.empty() ? out.measured_depth_to - out.measured_depth_from : 0.0;
+  for (const MeasuredDepthRange& range : well.open) out.open_length += range.to - range.from;
+  return out;
+}
+
+FileDescription describe_file(const std::string& path) {
+  const ReaderFormat& format = recognise_file(path);
+  FileDescription out;
+  out.path = path;
+  out.format = std::string(format.name);
+  switch (format.kind) {
+    case FormatKind::grid: {
+      Case read = read_case(path);
+      out.grid = describe(read.grid);
+      for (const Well& well : read.deck_wells) out.wells.push_back(describe(well));
+      out.sources = std::move(read.sources);
+      out.notes = std::move(read.notes);
+      break;
+    }
+    case FormatKind::wells: {
+      TrajectoryFile read = read_trajectory(path);
+      for (const Well& well : read.wells) out.wells.push_back(describe(well));
+      out.notes = std::move(read.notes);
+      break;
+    }
+    case FormatKind::mesh: out.mesh = describe(read_mesh(path)); break;
+  }
+  return out;
+}
+
+}  // namespace wellknit
