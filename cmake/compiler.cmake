@@ -22,7 +22,8 @@ target_compile_options(wellknit_options INTERFACE -ffp-contract=off -Wall -Wextr
                                                   -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
-  target_compile_options(wellknit_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_compile_options(wellknit_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized -Wno-array-bounds
+                                                    -Wno-restrict)
 endif()
 if(WELLKNIT_WERROR)
   target_compile_options(wellknit_options INTERFACE -Werror)
