@@ -46,7 +46,7 @@ struct RadialOptions {
   double bore_radius = 0.1;
   int sectors = 10;                   ///< at least 3
   int rings = 5;                      ///< at least 1
-  std::optional<double> growth;       ///< ratio of successive ring widths' radii; unset: (R / r_w)^(1/rings)
+  std::optional<double> growth;       ///< ratio of successive ring widths; unset: radii in geometric progression
   std::optional<int> segments;        ///< swept: cells along the well; unset: one for about one drainage radius
   MeshMode mode = MeshMode::automatic;
 };

@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/assembly.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "algorithm/cell_center.h"
+#include "algorithm/host_transmissibility.h"
+
+namespace wellknit {
+
+namespace {
+
+class Assembler {
+ public:
+  Assembler(const CornerPointGrid& grid, const HostMesh& host, const std::vector<TransitionMesh>& cavities)
+      : grid_(grid), host_(host), cavities_(cavities), vertex_of_host_(host.vertices.size()) {}
+
+  Assembly build() {
+    mark_removed();
+    add_host_cells();
+    for (const TransitionMesh& c : cavities_) add_transition_cells(c);
+    for (const TransitionMesh& c : cavities_)
+      for (const Tube& t : c.cavity.tubes) add_radial_cells(t);
+    add_host_faces();
+    std::size_t first_tube = 0;
+    for (std::size_t c = 0; c < cavities_.size(); ++c) {
+      add_cavity(c, first_tube);
+      first_tube += cavities_[c].cavity.tubes.size();
+    }
+    set_made_geometry();
+    out_.mesh.source_dimensions = grid_.dimensions;
+    out_.mesh.mapaxes = grid_.mapaxes;
+    out_.mesh.source_units = grid_.units;
+    return std::move(out_);
+  }
+
+ private:
+  using Loop = std::vector<VertexId>;
+
+  void mark_removed() {
+    is_removed_.resize(static_cast<std::size_t>(grid_.cell_count()), 0);
+    for (const TransitionMesh& c : cavities_)
+      for (const auto& r : c.cavity.removed) is_removed_[grid_.cell_id(r[0], r[1], r[2])] = 1;
+  }
+
+  CellId add_cell(CellKind kind, const Vec3& center) {
+    Cells& cells = out_.mesh.cells;
+    cells.kind.push_back(kind);
+    cells.centroid.push_back(Vec3::Zero());
+    cells.volume.push_back(0.0);
+    cells.depth.push_back(center.z());
+    cells.source_cell.push_back({});
+    cells.well.push_back({});
+    cells.radial_index.push_back({});
+    return cells.center.push_back(center);
+  }
+
+  void add_host_cells() {
+    out_.cell_of.resize(static_cast<std::size_t>(grid_.cell_count()));
+    for (std::int64_t c = 0; c < grid_.cell_count(); ++c) {
+      const HostCellId source(c);
+      if (host_.exists[source] == 0 || is_removed_[source] != 0) continue;
+      const CellId cell = add_cell(CellKind::host, host_cell_center(grid_, source));
+      out_.cell_of[source] = cell;
+      out_.mesh.cells.source_cell[cell] = source;
+      out_.mesh.cells.volume[cell] = host_.volume[source];
+    }
+  }
+
+  void add_transition_cells(const TransitionMesh& c) {
+    out_.first_transition_cell.push_back(static_cast<std::int64_t>(out_.mesh.cells.size()));
+    for (const Vec3& center : c.centers) add_cell(CellKind::transition, center);
+  }
+
+  void add_radial_cells(const Tube& tube) {
+    const RadialMesh& m = tube.real;
+    out_.tubes.push_back({&tube, CellId(out_.mesh.cells.size())});
+    for (int k = 0; k < m.segments; ++k)
+      for (int s = 0; s < m.sectors; ++s)
+        for (int r = 0; r < m.rings; ++r) {
+          const CellId cell = add_cell(CellKind::radial, radial_center(tube, k, s, r));
+          out_.mesh.cells.well[cell] = WellId(tube.well);
+          out_.mesh.cells.radial_index[cell] = {k, s, r};
+        }
+  }
+
+  /// Centre of the circle through a sector's trapezoid where it lies inside it, else half way (method.md §3); between the two stations
+  /// it moves to the centre of the sphere through all eight vertices.
+  static Vec3 radial_center(const Tube& tube, int k, int s, int r) {
+    const RadialMesh& m = tube.real;
+    const double half_angle = std::numbers::pi / m.sectors;
+    const Vec3& axis = m.axis[static_cast<std::size_t>(k)];
+    const double inner = (m.point(k, r, s) - axis).norm();
+    const double outer = (m.point(k, r + 1, s) - axis).norm();
+    const bool has_circumcentre = outer / inner > 1.02 / std::cos(2.0 * half_angle) && std::cos(2.0 * half_angle) > 0.0;
+    const double at = has_circumcentre ? 0.5 * (inner + outer) / std::cos(half_angle) : 0.5 * (inner + outer) * std::cos(half_angle);
+    const double part = (at / std::cos(half_angle) - inner) / (outer - inner);
+    const auto in_ring = [&](int station) {
+      const Vec3 low = 0.5 * (m.point(station, r, s) + m.point(station, r, s + 1));
+      const Vec3 high = 0.5 * (m.point(station, r + 1, s) + m.point(station, r + 1, s + 1));
+      return Vec3(low + part * (high - low));
+    };
+    const Vec3 near = in_ring(k);
+    const Vec3 middle = 0.5 * (near + in_ring(k + 1));
+    if (tube.layered) return middle;
+    const Vec3 normal = (m.point(k, m.rings, 0) - axis).cross(m.point(k, m.rings, 1) - axis).normalized();
+    const Vec3 chord = m.axis[static_cast<std::size_t>(k) + 1] - axis;
+    const double t = (axis + 0.5 * chord - near).dot(chord) / normal.dot(chord);
+    return near + t * normal;
+  }
+
+  VertexId host_vertex(VertexId v) {
+    VertexId& to = vertex_of_host_[v];
+    if (!to.is_valid()) to = out_.mesh.vertices.push_back(host_.vertices[v]);
+    return to;
+  }
+
+  void add_face(std::span<const VertexId> loop, CellId from, CellId to, const FaceInfo& info) {
+    out_.mesh.faces.add(loop, from, to);
+    out_.face_info.push_back(info);
+  }
+
+  void add_host_faces() {
+    Loop loop;
+    for (std::size_t index = 0; index < host_.faces.size(); ++index) {
+      const FaceId f(index);
+      const auto [a, b] = host_.faces.cells[f];
+      const CellId first = out_.cell_of[a];
+      const bool is_wall = b.is_valid() && is_removed_[b] != 0;
+      const CellId second = b.is_valid() ? out_.cell_of[b] : no_cell;
+      // Faces at removed cells come from the cavity; faces of removed cells alone are gone.
+      if (is_wall || is_removed_[a] != 0 || (!first.is_valid() && !second.is_valid())) continue;
+      loop.clear();
+      for (const VertexId v : host_.faces.loop(f)) loop.push_back(host_vertex(v));
+      FaceInfo info;
+      info.role = FaceRole::host;
+      info.axis = host_.faces.axis[f];
+      info.is_fault = host_.faces.is_fault[f];
+      info.is_pinch = host_.faces.is_pinch[f];
+      info.host = {a, b};
+      add_face(loop, first, second, info);
+    }
+  }
+
+  /// Mesh vertices of a cavity, made when first used.
+  struct CavityVertices {
+    std::vector<VertexId> of_diagram;
+    std::vector<std::vector<VertexId>> of_tube;  ///< per tube of the cavity, per point
+  };
+
+  VertexId tube_vertex(const TransitionMesh& c, std::size_t tube, std::size_t point, CavityVertices& vertices) {
+    VertexId& v = vertices.of_tube[tube][point];
+    if (!v.is_valid()) v = out_.mesh.vertices.push_back(c.cavity.tubes[tube].real.points[point]);
+    return v;
+  }
+
+  VertexId diagram_vertex(const TransitionMesh& c, std::int32_t index, CavityVertices& vertices) {
+    const auto i = static_cast<std::size_t>(index);
+    VertexId& v = vertices.of_diagram[i];
+    if (v.is_valid()) return v;
+    if (i >= c.cavity.vertices.size()) {
+      v = out_.mesh.vertices.push_back(c.vertices[i]);
+    } else {
+      const CavityVertex& from = c.cavity.vertices[i];
+      v = from.is_host ? host_vertex(from.host) : tube_vertex(c, from.tube, from.tube_point, vertices);
+    }
+    return v;
+  }
+
+  void add_cavity(std::size_t index, std::size_t first_tube) {
+    const TransitionMesh& c = cavities_[index];
+    CavityVertices vertices;
+    vertices.of_diagram.resize(c.vertices.size());
+    for (const Tube& t : c.cavity.tubes) vertices.of_tube.emplace_back(t.real.points.size());
+    Loop loop;
+    for (std::size_t f = 0; f < c.faces.size(); ++f) {
+      loop.clear();
+      for (const auto v : c.faces[f].loop) loop.push_back(diagram_vertex(c, v, vertices));
+      add_diagram_face(index, f, first_tube, loop);
+    }
+    for (std::size_t t = 0; t < c.cavity.tubes.size(); ++t) add_tube_faces(c, t, out_.tubes[first_tube + t], vertices);
+  }
+
+  void add_diagram_face(std::size_t index, std::size_t f, std::size_t first_tube, const Loop& loop) {
+    const TransitionMesh& c = cavities_[index];
+    const DiagramFace& face = c.faces[f];
+    const auto cell = [&](std::int32_t site) { return CellId(out_.first_transition_cell[index] + site); };
+    FaceInfo info;
+    CellId other = no_cell;
+    if (face.other_kind == DiagramFace::Other::inner) {
+      other = cell(face.other);
+    } else if (face.other_kind == DiagramFace::Other::outer) {
+      const BoundaryFace& b = c.cavity.faces[static_cast<std::size_t>(c.boundary_face[f])];
+      if (b.kind == BoundaryFaceKind::host) {
+        other = out_.cell_of[b.outside_cell];
+        info = wall_info(b);
+      } else {
+        info.role = b.kind == BoundaryFaceKind::lateral ? FaceRole::lateral : FaceRole::axial;
+        info.circle = b.radial.ring + 1;
+        if (b.radial.ring >= 0) other = out_.tubes[first_tube + b.tube].cell(b.radial.segment, b.radial.sector, b.radial.ring);
+      }
+    }
+    add_face(loop, cell(face.cell), other, info);
+  }
+
+  FaceInfo wall_info(const BoundaryFace& b) const {
+    FaceInfo info;
+    info.role = FaceRole::host;
+    info.host = {b.removed_cell, b.outside_cell};
+    const auto one = grid_.ijk(b.removed_cell);
+    const auto two = grid_.ijk(b.outside_cell);
+    for (std::size_t a = 0; a < 3; ++a)
+      if (one[a] != two[a]) info.axis = static_cast<Axis>(a);
+    return info;
+  }
+
+  /// All faces of a tube but those that the transition mesh brings.
+  void add_tube_faces(const TransitionMesh& c, std::size_t t, const PlacedTube& placed, CavityVertices& vertices) {
+    const Tube& tube = c.cavity.tubes[t];
+    const RadialMesh& m = tube.real;
+    const auto at = [&](int k, int circle, int s) { return tube_vertex(c, t, m.point_index(k, circle, s), vertices); };
+    for (int k = 0; k < m.segments; ++k)
+      for (int s = 0; s < m.sectors; ++s)
+        for (int r = 0; r < m.rings; ++r) {
+          const CellId cell = placed.cell(k, s, r);
+          FaceInfo ring;
+          ring.role = FaceRole::ring;
+          ring.circle = r;
+          // Inwards; the bore's wall is a part of the outer boundary.
+          add_face(Loop{at(k, r, s), at(k + 1, r, s), at(k + 1, r, s + 1), at(k, r, s + 1)}, cell, r > 0 ? placed.cell(k, s, r - 1) : no_cell, ring);
+          FaceInfo sector;
+          sector.role = FaceRole::sector;
+          add_face(Loop{at(k, r, s + 1), at(k + 1, r, s + 1), at(k + 1, r + 1, s + 1), at(k, r + 1, s + 1)}, cell, placed.cell(k, s + 1, r), sector);
+          FaceInfo axial;
+          axial.role = FaceRole::axial;
+          const bool is_last = k + 1 == m.segments;
+          if (!is_last || tube.layered)
+            add_face(Loop{at(k + 1, r, s), at(k + 1, r + 1, s), at(k + 1, r + 1, s + 1), at(k + 1, r, s + 1)}, cell,
+                     is_last ? no_cell : placed.cell(k + 1, s, r), axial);
+          if (k == 0 && tube.layered)
+            add_face(Loop{at(0, r, s), at(0, r, s + 1), at(0, r + 1, s + 1), at(0, r + 1, s)}, cell, no_cell, axial);
+        }
+  }
+
+  /// Volumes and centroids from the faces' fans; host cells keep the volume of their eight corners.
+  void set_made_geometry() {
+    Mesh& mesh = out_.mesh;
+    IdVector<CellId, double> volume(mesh.cells.size(), 0.0);
+    std::vector<std::vector<OutwardFace>> radial_faces(mesh.cells.size());
+    for (std::size_t index = 0; index < mesh.faces.size(); ++index) {
+      const FaceId f(index);
+      std::vector<Vec3> points;
+      for (const VertexId v : mesh.faces.loop(f)) points.push_back(mesh.vertices[v]);
+      const PolygonGeometry g = polygon_geometry(points);
+      for (int side = 0; side < 2; ++side) {
+        const CellId cell = mesh.faces.cells[f][static_cast<std::size_t>(side)];
+        if (!cell.is_valid()) continue;
+        const double sign = side == 0 ? 1.0 : -1.0;
+        add_fan(points, g.mean, mesh.cells.center[cell], sign, volume[cell], mesh.cells.centroid[cell]);
+        if (mesh.cells.kind[cell] == CellKind::radial) radial_faces[cell.index()].push_back({g.mean, sign * g.area_vector});
+      }
+    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      const CellId cell(c);
+      mesh.cells.centroid[cell] = mesh.cells.center[cell] + mesh.cells.centroid[cell] / (volume[cell] != 0.0 ? volume[cell] : 1.0);
+      if (mesh.cells.kind[cell] != CellKind::host) mesh.cells.volume[cell] = volume[cell];
+      if (mesh.cells.kind[cell] != CellKind::radial) continue;
+      // Rings that lean against their segment can hide a face of a thin radial cell from its natural centre.
+      if (smallest_height(radial_faces[c], mesh.cells.center[cell]) <= 0.0)
+        if (const auto p = point_that_sees_all(radial_faces[c], mesh.cells.center[cell], std::cbrt(std::abs(volume[cell])))) {
+          mesh.cells.center[cell] = *p;
+          mesh.cells.depth[cell] = p->z();
+        }
+    }
+  }
+
+  /// Adds the tetrahedra between a face's fan and a cell's centre: volume, and first moment about the centre.
+  static void add_fan(const std::vector<Vec3>& points, const Vec3& mean, const Vec3& center, double sign, double& volume, Vec3& moment) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 a = points[i] - center;
+      const Vec3 b = points[(i + 1) % points.size()] - center;
+      const Vec3 m = mean - center;
+      const double v = sign * m.dot(a.cross(b)) / 6.0;
+      volume += v;
+      moment += v * (a + b + m) / 4.0;
+    }
+  }
+
+  const CornerPointGrid& grid_;
+  const HostMesh& host_;
+  const std::vector<TransitionMesh>& cavities_;
+  IdVector<VertexId, VertexId> vertex_of_host_;
+  IdVector<HostCellId, std::uint8_t> is_removed_;
+  Assembly out_;
+};
+
+}  // namespace
+
+Assembly assemble(const CornerPointGrid& grid, const HostMesh& host, const std::vector<TransitionMesh>& cavities) {
+  return Assembler(grid, host, cavities).build();
+}
+
+}  // namespace wellknit

@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/cavity_mapping.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "algorithm/untangle.h"
+
+namespace wellknit {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// Where a tetrahedron lies.
+enum class Side : std::uint8_t { unknown, inside, outside, flat };
+
+struct CellInfo {
+  Side side = Side::unknown;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel>;
+using CellBase = CGAL::Triangulation_cell_base_with_info_3<CellInfo, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using CellHandle = Delaunay::Cell_handle;
+
+constexpr std::int64_t most_loops = 25;
+constexpr int most_sweeps = 12;
+constexpr double room_for_face = 0.02;  ///< of its radius: what a face's interval of empty spheres must keep
+
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
+
+Kernel::Point_3 cgal_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+struct Tetrahedron {
+  std::array<std::int32_t, 4> vertex{};
+  double reference = 0.0;  ///< six times the volume in E_ref
+};
+
+}  // namespace
+
+class CavityMapping::Implementation {
+ public:
+  Implementation(const Cavity& cavity, MappingMethod method) : cavity_(cavity), method_(method) {
+    insert_boundary();
+    if (!label_and_collect()) return;
+    report_.inverted_first = count_inverted();
+    correct();
+    report_.inverted_last = count_inverted();
+    report_.tetrahedra = static_cast<std::int64_t>(tetrahedra_.size());
+    report_.smallest_ratio = smallest_ratio();
+    if (report_.failure.empty() && report_.inverted_last > 0)
+      report_.failure = std::to_string(report_.inverted_last) + " tetrahedra of the mapping stay inverted";
+  }
+
+  [[nodiscard]] const MappingReport& report() const { return report_; }
+
+  [[nodiscard]] Vec3 to_real(const Vec3& x) const {
+    CellHandle c = delaunay_.locate(cgal_point(x), hint_);
+    hint_ = c;
+    if (is_inside(c)) return interpolate(c, x);
+    return interpolate(nearest_inside(c, x), x);
+  }
+
+ private:
+  // ---- triangulation ----
+
+  void insert_boundary() {
+    // The lists of faces at each vertex tell whether a triangle lies in a face.
+    faces_at_.resize(cavity_.vertices.size());
+    for (std::size_t f = 0; f < cavity_.faces.size(); ++f) {
+      low_.push_back(cavity_.faces[f].t_low);
+      high_.push_back(cavity_.faces[f].t_high);
+      for (const auto v : cavity_.faces[f].loop) faces_at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
+    }
+    for (const CavityVertex& v : cavity_.vertices) insert(v.reference, v.real);
+    fixed_ = reference_.size();
+    for (const PlaneNode& n : cavity_.plane_nodes)
+      if (reserve_room(n.reference)) {
+        insert(n.reference, n.real);
+        ++fixed_;
+      }
+  }
+
+  void insert(const Vec3& reference, const Vec3& real) {
+    const auto v = delaunay_.insert(cgal_point(reference), hint_);
+    v->info() = static_cast<std::int32_t>(reference_.size());
+    hint_ = v->cell();
+    reference_.push_back(reference);
+    real_.push_back(real);
+  }
+
+  /// True when every boundary face stays a Delaunay face with this point added; the faces' bounds are then narrowed.
+  bool reserve_room(const Vec3& q, std::int32_t* broken = nullptr) {
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t f = 0; f < low_.size(); ++f) {
+        const BoundaryFace& face = cavity_.faces[f];
+        const Vec3 d = q - face.center;
+        const double h = face.normal.dot(d);
+        const double p = d.squaredNorm() - face.radius * face.radius;
+        const double room = room_for_face * face.radius;
+        double low = low_[f];
+        double high = high_[f];
+        if (std::abs(h) <= 1e-9 * face.radius) {
+          if (p < 0.0) high = low;
+        } else {
+          (h > 0.0 ? high : low) = h > 0.0 ? std::min(high, p / (2.0 * h)) : std::max(low, p / (2.0 * h));
+        }
+        if (pass == 1) {
+          low_[f] = low;
+          high_[f] = high;
+        } else if (high - low < room) {
+          if (broken != nullptr) *broken = static_cast<std::int32_t>(f);
+          return false;
+        }
+      }
+    return true;
+  }
+
+  /// The boundary face that holds all three vertices of a facet, or -1.
+  [[nodiscard]] std::int32_t face_of(CellHandle c, int opposite) const {
+    std::array<std::int32_t, 3> v{};
+    std::size_t n = 0;
+    for (int i = 0; i < 4; ++i)
+      if (i != opposite) {
+        v[n] = c->vertex(i)->info();
+        if (static_cast<std::size_t>(v[n]) >= faces_at_.size()) return -1;
+        ++n;
+      }
+    for (const auto f : faces_at_[static_cast<std::size_t>(v[0])]) {
+      const auto& b = faces_at_[static_cast<std::size_t>(v[1])];
+      const auto& d = faces_at_[static_cast<std::size_t>(v[2])];
+      if (std::find(b.begin(), b.end(), f) != b.end() && std::find(d.begin(), d.end(), f) != d.end()) return f;
+    }
+    return -1;
+  }
+
+  /// Labels the tetrahedra from the boundary faces inwards and outwards; false when the boundary is not in the triangulation.
+  bool label_and_collect() {
+    std::vector<CellHandle> stack;
+    const auto set = [&](CellHandle c, Side side) {
+      if (c->info().side == side) return true;
+      if (c->info().side != Side::unknown) return false;
+      c->info().side = side;
+      if (side != Side::flat) stack.push_back(c);
+      return true;
+    };
+    for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c) c->info().side = Side::unknown;
+    for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c)
+      for (int i = 0; i < 4; ++i) {
+        const std::int32_t f = face_of(c, i);
+        if (f < 0) continue;
+        if (!set(c, side_of(c, i, f))) return fail("the cavity's boundary is not in the triangulation");
+      }
+    while (!stack.empty()) {
+      const CellHandle c = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        const CellHandle n = c->neighbor(i);
+        if (delaunay_.is_infinite(n) || face_of(c, i) >= 0) continue;
+        if (!set(n, c->info().side)) return fail("the cavity's boundary is not in the triangulation");
+      }
+    }
+    return collect();
+  }
+
+  /// Side of face f on which a tetrahedron with a facet in it lies.
+  [[nodiscard]] Side side_of(CellHandle c, int opposite, std::int32_t f) const {
+    const std::int32_t apex = c->vertex(opposite)->info();
+    const BoundaryFace& face = cavity_.faces[static_cast<std::size_t>(f)];
+    if (std::find(face.loop.begin(), face.loop.end(), apex) != face.loop.end()) return Side::flat;
+    return face.normal.dot(reference_[static_cast<std::size_t>(apex)] - face.center) > 0.0 ? Side::inside : Side::outside;
+  }
+
+  bool collect() {
+    tetrahedra_.clear();
+    double volume = 0.0;
+    for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c) {
+      if (c->info().side != Side::inside) continue;
+      Tetrahedron t;
+      for (int i = 0; i < 4; ++i) t.vertex[static_cast<std::size_t>(i)] = c->vertex(i)->info();
+      t.reference = six_volumes(reference_[static_cast<std::size_t>(t.vertex[0])], reference_[static_cast<std::size_t>(t.vertex[1])],
+                                reference_[static_cast<std::size_t>(t.vertex[2])], reference_[static_cast<std::size_t>(t.vertex[3])]);
+      volume += t.reference / 6.0;
+      tetrahedra_.push_back(t);
+    }
+    // A boundary that is not respected shows as volume: the smallest face's tetrahedron is far above this rounding.
+    if (std::abs(volume - cavity_.reference_volume) > 1e-8 * cavity_.reference_volume)
+      return fail("the tetrahedra do not fill the cavity: " + std::to_string(volume / cavity_.reference_volume - 1.0) + " relative");
+    return true;
+  }
+
+  bool fail(std::string reason) {
+    report_.failure = std::move(reason);
+    return false;
+  }
+
+  // ---- inverted tetrahedra ----
+
+  [[nodiscard]] const Vec3& real_of(const Tetrahedron& t, std::size_t i) const { return real_[static_cast<std::size_t>(t.vertex[i])]; }
+
+  [[nodiscard]] double ratio(const Tetrahedron& t) const {
+    return six_volumes(real_of(t, 0), real_of(t, 1), real_of(t, 2), real_of(t, 3)) / std::max(t.reference, least_reference_);
+  }
+
+  [[nodiscard]] std::int64_t count_inverted() const {
+    return std::count_if(tetrahedra_.begin(), tetrahedra_.end(), [&](const Tetrahedron& t) { return ratio(t) <= 0.0; });
+  }
+
+  [[nodiscard]] double smallest_ratio() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& t : tetrahedra_) smallest = std::min(smallest, ratio(t));
+    return smallest;
+  }
+
+  void correct() {
+    std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
+    int stalled = 0;
+    while (report_.loops < most_loops) {
+      const std::int64_t inverted = count_inverted();
+      if (inverted == 0) break;
+      stalled = inverted < fewest ? 0 : stalled + 1;
+      fewest = std::min(fewest, inverted);
+      if (stalled >= 8) break;
+      ++report_.loops;
+      if (!insert_barycentres()) break;
+      if (!label_and_collect()) return;
+      untangle();
+    }
+    if (report_.loops > 0 && method_ == MappingMethod::automatic) smooth();
+  }
+
+  /// One point for each inverted tetrahedron; false when none could be placed.
+  bool insert_barycentres() {
+    std::vector<std::pair<Vec3, Vec3>> points;
+    for (const Tetrahedron& t : tetrahedra_) {
+      if (ratio(t) > 0.0) continue;
+      Vec3 reference = Vec3::Zero();
+      Vec3 real = Vec3::Zero();
+      for (std::size_t i = 0; i < 4; ++i) {
+        reference += 0.25 * reference_[static_cast<std::size_t>(t.vertex[i])];
+        real += 0.25 * real_of(t, i);
+      }
+      points.emplace_back(reference, real);
+    }
+    std::int64_t placed = 0;
+    for (auto& [reference, real] : points) {
+      if (!slide_clear(reference, real)) continue;
+      insert(reference, real);
+      ++placed;
+    }
+    report_.points_inserted += placed;
+    return placed > 0;
+  }
+
+  /// Slides a point away from the boundary faces that it would destroy; false when it finds no place.
+  bool slide_clear(Vec3& reference, Vec3& real) {
+    for (int step = 0; step < 20; ++step) {
+      std::int32_t broken = -1;
+      if (reserve_room(reference, &broken)) {
+        if (step > 0) real = to_real_or(reference, real);
+        return true;
+      }
+      const BoundaryFace& face = cavity_.faces[static_cast<std::size_t>(broken)];
+      reference += 0.15 * face.radius * face.normal;
+      const CellHandle c = delaunay_.locate(cgal_point(reference), hint_);
+      // Tetrahedra made in this loop have no label yet.
+      if (delaunay_.is_infinite(c) || c->info().side == Side::outside || c->info().side == Side::flat) return false;
+    }
+    return false;
+  }
+
+  [[nodiscard]] Vec3 to_real_or(const Vec3& reference, const Vec3& fallback) const {
+    const CellHandle c = delaunay_.locate(cgal_point(reference), hint_);
+    return delaunay_.is_infinite(c) ? fallback : interpolate(c, reference);
+  }
+
+  // ---- moving free vertices ----
+
+  void find_balls() {
+    balls_.assign(reference_.size() - fixed_, {});
+    for (std::size_t t = 0; t < tetrahedra_.size(); ++t)
+      for (const auto v : tetrahedra_[t].vertex)
+        if (static_cast<std::size_t>(v) >= fixed_) balls_[static_cast<std::size_t>(v) - fixed_].push_back(t);
+  }
+
+  /// Volumes around a vertex as functions of its position; `normalised`: over their reference volumes.
+  [[nodiscard]] VertexBall ball_of(std::int32_t vertex, const std::vector<std::size_t>& around, bool normalised) const {
+    VertexBall ball;
+    for (const std::size_t index : around) {
+      const Tetrahedron& t = tetrahedra_[index];
+      const auto at = static_cast<std::size_t>(std::distance(t.vertex.begin(), std::find(t.vertex.begin(), t.vertex.end(), vertex)));
+      // Opposite facet, ordered so that its normal times the vertex gives the signed volume.
+      static constexpr std::array<std::array<std::size_t, 3>, 4> facets{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
+      const Vec3& a = real_of(t, facets[at][0]);
+      const Vec3 normal = (real_of(t, facets[at][1]) - a).cross(real_of(t, facets[at][2]) - a);
+      const double unit = normalised ? std::max(t.reference, least_reference_) : 1.0;
+      ball.gradient.push_back(normal / unit);
+      ball.offset.push_back(-normal.dot(a) / unit);
+    }
+    return ball;
+  }
+
+  [[nodiscard]] double smallest_around(const std::vector<std::size_t>& around) const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const std::size_t t : around) smallest = std::min(smallest, ratio(tetrahedra_[t]));
+    return smallest;
+  }
+
+  void place_best(std::size_t free) {
+    const auto vertex = static_cast<std::int32_t>(fixed_ + free);
+    const auto& around = balls_[free];
+    const VertexBall ball = ball_of(vertex, around, true);
+    Vec3& p = real_[static_cast<std::size_t>(vertex)];
+    // The mean ratio over the ball does not change with p: no position does better.
+    double reference = 0.0;
+    double real = 0.0;
+    for (std::size_t j = 0; j < around.size(); ++j) {
+      const double unit = std::max(tetrahedra_[around[j]].reference, least_reference_);
+      reference += unit;
+      real += ball.value(j, p) * unit;
+    }
+    if (real > 0.0) p = largest_smallest_value(ball, real / reference, p);
+  }
+
+  void untangle() {
+    find_balls();
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      bool moved = false;
+      for (std::size_t free = 0; free < balls_.size(); ++free) {
+        if (balls_[free].empty() || smallest_around(balls_[free]) > 0.0) continue;
+        Vec3& p = real_[fixed_ + free];
+        const Vec3 before = p;
+        if (method_ == MappingMethod::paper)
+          p = paper_position(ball_of(static_cast<std::int32_t>(fixed_ + free), balls_[free], false), p);
+        else
+          place_best(free);
+        moved |= (p - before).norm() > 1e-9 * (1.0 + before.norm());
+      }
+      if (!moved) break;
+    }
+  }
+
+  /// All free vertices to where the smallest volume ratio around them is largest.
+  void smooth() {
+    find_balls();
+    for (int sweep = 0; sweep < 5; ++sweep)
+      for (std::size_t free = 0; free < balls_.size(); ++free)
+        if (!balls_[free].empty()) place_best(free);
+  }
+
+  // ---- location ----
+
+  [[nodiscard]] bool is_inside(CellHandle c) const { return !delaunay_.is_infinite(c) && c->info().side == Side::inside; }
+
+  [[nodiscard]] std::array<double, 4> barycentric(CellHandle c, const Vec3& x) const {
+    std::array<Vec3, 4> p;
+    for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = reference_[static_cast<std::size_t>(c->vertex(i)->info())];
+    const double total = six_volumes(p[0], p[1], p[2], p[3]);
+    return {six_volumes(x, p[1], p[2], p[3]) / total, six_volumes(p[0], x, p[2], p[3]) / total, six_volumes(p[0], p[1], x, p[3]) / total,
+            six_volumes(p[0], p[1], p[2], x) / total};
+  }
+
+  [[nodiscard]] Vec3 interpolate(CellHandle c, const Vec3& x) const {
+    const auto b = barycentric(c, x);
+    Vec3 out = Vec3::Zero();
+    for (int i = 0; i < 4; ++i) out += b[static_cast<std::size_t>(i)] * real_[static_cast<std::size_t>(c->vertex(i)->info())];
+    return out;
+  }
+
+  /// For points that rounding puts just outside: of the tetrahedra near by the one that the point is least outside of.
+  [[nodiscard]] CellHandle nearest_inside(CellHandle start, const Vec3& x) const {
+    std::vector<CellHandle> seen{start};
+    CellHandle best = nullptr;
+    double best_value = -std::numeric_limits<double>::infinity();
+    for (std::size_t at = 0; at < seen.size() && seen.size() < 2000; ++at) {
+      const CellHandle c = seen[at];
+      if (is_inside(c)) {
+        const auto b = barycentric(c, x);
+        const double value = *std::min_element(b.begin(), b.end());
+        if (value > best_value) {
+          best_value = value;
+          best = c;
+        }
+      }
+      if (best != nullptr && seen.size() > 100) continue;
+      for (int i = 0; i < 4; ++i)
+        if (std::find(seen.begin(), seen.end(), c->neighbor(i)) == seen.end()) seen.push_back(c->neighbor(i));
+    }
+    return best;
+  }
+
+  const Cavity& cavity_;
+  MappingMethod method_;
+  MappingReport report_;
+  Delaunay delaunay_;
+  mutable CellHandle hint_;
+  std::vector<std::vector<std::int32_t>> faces_at_;
+  std::vector<double> low_;   ///< per boundary face: interval of empty spheres with all inserted points
+  std::vector<double> high_;
+  std::vector<Vec3> reference_;  ///< per vertex of the triangulation
+  std::vector<Vec3> real_;
+  std::size_t fixed_ = 0;        ///< vertices before this one do not move
+  std::vector<Tetrahedron> tetrahedra_;
+  std::vector<std::vector<std::size_t>> balls_;  ///< per free vertex
+  /// Six volumes, m3, below which a reference tetrahedron counts as this large: a sliver's ratio must not rule its ball.
+  double least_reference_ = 1e-9;
+};
+
+CavityMapping::CavityMapping(const Cavity& cavity, MappingMethod method)
+    : implementation_(std::make_unique<Implementation>(cavity, method)) {}
+CavityMapping::~CavityMapping() = default;
+const MappingReport& CavityMapping::report() const { return implementation_->report(); }
+Vec3 CavityMapping::to_real(const Vec3& reference) const { return implementation_->to_real(reference); }
+
+}  // namespace wellknit

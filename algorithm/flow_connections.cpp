@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/flow_connections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "algorithm/host_transmissibility.h"
+
+namespace wellknit {
+
+namespace {
+
+/// Permeability with net-to-gross on the lateral directions, as NEWTRAN applies it, m2.
+Vec3 flow_permeability(const Cells& cells, CellId cell) {
+  const double ntg = cells.net_to_gross[cell];
+  const Vec3& k = cells.permeability[cell];
+  return {k.x() * ntg, k.y() * ntg, k.z()};
+}
+
+double degrees_between(const Vec3& a, const Vec3& b) {
+  const double scale = a.norm() * b.norm();
+  if (!(scale > 0.0)) return 0.0;
+  // The cross product keeps small angles that the cosine loses.
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
+}
+
+/// A face as one of its cells sees it; the area vector points out of the cell.
+struct HalfFace {
+  CellId cell;
+  Vec3 centroid;
+  Vec3 area_vector;
+  const FaceInfo& info;
+};
+
+/// Linear two-point half: A n.K d / d^2.
+double linear_half(const Vec3& k, const Vec3& d, const Vec3& area_vector) {
+  const double d2 = d.squaredNorm();
+  return d2 > 0.0 ? std::abs(area_vector.dot(k.cwiseProduct(d))) / d2 : 0.0;
+}
+
+class Connector {
+ public:
+  Connector(const CornerPointGrid& grid, Assembly& assembly) : grid_(grid), assembly_(assembly), mesh_(assembly.mesh) {
+    for (const PlacedTube& t : assembly.tubes) {
+      const auto& m = t.tube->real;
+      tube_end_.push_back(t.first_cell.value() + static_cast<std::int64_t>(m.segments) * m.sectors * m.rings);
+    }
+  }
+
+  void connect() {
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+      if (mesh_.faces.cells[FaceId(f)][1].is_valid()) add(FaceId(f));
+  }
+
+ private:
+  void add(FaceId face) {
+    std::vector<Vec3> points;
+    for (const VertexId v : mesh_.faces.loop(face)) points.push_back(mesh_.vertices[v]);
+    const PolygonGeometry g = polygon_geometry(points);
+    const FaceInfo& info = assembly_.face_info[face];
+    const auto [a, b] = mesh_.faces.cells[face];
+    const bool is_swapped = b < a;
+    const HalfFace first{a, g.centroid, g.area_vector, info};
+    const HalfFace second{b, g.centroid, -g.area_vector, info};
+    const double t1 = half(first);
+    const double t2 = half(second);
+    Connections& c = mesh_.connections;
+    c.cells.push_back(is_swapped ? std::array{b, a} : std::array{a, b});
+    c.face.push_back(face);
+    c.transmissibility.push_back(t1 > 0.0 && t2 > 0.0 ? 1.0 / (1.0 / t1 + 1.0 / t2) : 0.0);
+    c.area.push_back(g.area);
+    const Vec3 normal = g.area > 0.0 ? Vec3(g.area_vector / g.area) : Vec3::Zero();
+    c.normal.push_back(is_swapped ? Vec3(-normal) : normal);
+    const double d1 = (g.centroid - mesh_.cells.center[a]).norm();
+    const double d2 = (g.centroid - mesh_.cells.center[b]).norm();
+    c.half_distance.push_back(is_swapped ? std::array{d2, d1} : std::array{d1, d2});
+    c.non_orthogonality.push_back(degrees_between(normal, mesh_.cells.center[b] - mesh_.cells.center[a]));
+    c.k_non_orthogonality.push_back(std::max(k_angle(first), k_angle(second)));
+    c.planarity.push_back(planarity(points, g));
+    c.kind.push_back(info.is_pinch != 0 ? ConnectionKind::pinch_out : info.is_fault != 0 ? ConnectionKind::fault : ConnectionKind::face);
+    c.multiplier.push_back(1.0);
+  }
+
+  [[nodiscard]] double k_angle(const HalfFace& h) const {
+    const Vec3 k = flow_permeability(mesh_.cells, h.cell);
+    return degrees_between(k.cwiseProduct(h.area_vector), h.centroid - mesh_.cells.center[h.cell]);
+  }
+
+  [[nodiscard]] double half(const HalfFace& h) const {
+    const Vec3 k = flow_permeability(mesh_.cells, h.cell);
+    const Vec3 d = h.centroid - mesh_.cells.center[h.cell];
+    switch (mesh_.cells.kind[h.cell]) {
+      case CellKind::host: return host_half(h);
+      case CellKind::radial: return radial_half(h, k, d);
+      case CellKind::refined:
+      case CellKind::transition: break;
+    }
+    return linear_half(k, d, h.area_vector);
+  }
+
+  /// Host cells see host faces only.
+  [[nodiscard]] double host_half(const HalfFace& h) const {
+    const HostCellId own = mesh_.cells.source_cell[h.cell];
+    const HostCellId other = h.info.host[0] == own ? h.info.host[1] : h.info.host[0];
+    const auto a = static_cast<std::size_t>(h.info.axis);
+    return host_half_transmissibility(grid_, own, h.info.axis, grid_.ijk(other)[a] > grid_.ijk(own)[a], h.area_vector);
+  }
+
+  [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {
+    std::size_t t = 0;
+    while (cell.value() >= tube_end_[t]) ++t;
+    return assembly_.tubes[t];
+  }
+
+  /// Mean distance of the two ends of a sector's face on a circle, m.
+  static double length_along_well(const RadialMesh& m, const RadialIndex& at, int circle) {
+    const auto edge = [&](int sector) { return (m.point(at.segment + 1, circle, sector) - m.point(at.segment, circle, sector)).norm(); };
+    return 0.5 * (edge(at.sector) + edge(at.sector + 1));
+  }
+
+  [[nodiscard]] double radial_half(const HalfFace& h, const Vec3& k, const Vec3& d) const {
+    const RadialMesh& m = tube_of(h.cell).tube->real;
+    const RadialIndex at = mesh_.cells.radial_index[h.cell];
+    const Vec3 n = h.area_vector.normalized();
+    const double along_normal = n.dot(k.cwiseProduct(n));
+    const Vec3& axis = m.axis[static_cast<std::size_t>(at.segment)];
+    const double inner = (m.point(at.segment, at.ring, at.sector) - axis).norm();
+    const double outer = (m.point(at.segment, at.ring + 1, at.sector) - axis).norm();
+    const double theta = 2.0 * std::numbers::pi / m.sectors;
+    switch (h.info.role) {
+      case FaceRole::ring:
+      case FaceRole::lateral: {
+        const double r_face = h.info.circle == at.ring ? inner : outer;
+        return along_normal * length_along_well(m, at, h.info.circle) * theta / std::abs(std::log(r_face / mean_pressure_radius(inner, outer)));
+      }
+      case FaceRole::sector: {
+        // Flow around the axis: a length r theta / 2 for each radius, L dr wide.
+        const double length = h.area_vector.norm() / (outer - inner);
+        return along_normal * length * std::log(outer / inner) / (0.5 * theta);
+      }
+      case FaceRole::axial: {
+        const double distance = std::abs(n.dot(d));
+        return distance > 0.0 ? along_normal * h.area_vector.norm() / distance : 0.0;
+      }
+      case FaceRole::host:
+      case FaceRole::general: break;
+    }
+    return linear_half(k, d, h.area_vector);
+  }
+
+  const CornerPointGrid& grid_;
+  Assembly& assembly_;
+  Mesh& mesh_;
+  std::vector<std::int64_t> tube_end_;  ///< one past the last cell of each tube
+};
+
+}  // namespace
+
+double mean_pressure_radius(double inner, double outer) {
+  const double a = inner * inner;
+  const double b = outer * outer;
+  return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
+}
+
+double equal_area_radius(double radius, int sectors) {
+  const double angle = 2.0 * std::numbers::pi / sectors;
+  return radius * std::sqrt(std::sin(angle) / angle);
+}
+
+void connect_cells(const CornerPointGrid& grid, Assembly& assembly) { Connector(grid, assembly).connect(); }
+
+double open_length(const Well& well, double from, double to) {
+  if (well.open.empty()) return to - from;
+  double length = 0.0;
+  for (const MeasuredDepthRange& o : well.open) length += std::max(0.0, std::min(to, o.to) - std::max(from, o.from));
+  return std::min(length, to - from);
+}
+
+std::vector<WellConnection> connect_tube(const Mesh& mesh, const PlacedTube& placed, const Well& well) {
+  const RadialMesh& m = placed.tube->real;
+  std::vector<WellConnection> connections;
+  for (int k = 0; k < m.segments; ++k) {
+    const auto station = static_cast<std::size_t>(k);
+    const double md0 = std::min(m.measured_depth[station], m.measured_depth[station + 1]);
+    const double md1 = std::max(m.measured_depth[station], m.measured_depth[station + 1]);
+    const double part = md1 > md0 ? open_length(well, md0, md1) / (md1 - md0) : 0.0;
+    // A millionth of a segment is what rounding leaves at the ends of intervals.
+    if (part < 1e-6) continue;
+    for (int s = 0; s < m.sectors; ++s) {
+      const CellId cell = placed.cell(k, s, 0);
+      const double inner = (m.point(k, 0, s) - m.axis[station]).norm();
+      const double outer = (m.point(k, 1, s) - m.axis[station]).norm();
+      const Vec3 middle = 0.25 * (m.point(k, 0, s) + m.point(k, 0, s + 1) + m.point(k + 1, 0, s) + m.point(k + 1, 0, s + 1));
+      const Vec3 n = (middle - 0.5 * (m.axis[station] + m.axis[station + 1])).normalized();
+      const double length = 0.5 * ((m.point(k + 1, 0, s) - m.point(k, 0, s)).norm() + (m.point(k + 1, 0, s + 1) - m.point(k, 0, s + 1)).norm());
+      const double permeability = n.dot(flow_permeability(mesh.cells, cell).cwiseProduct(n));
+      const double r0 = equal_area_radius(mean_pressure_radius(inner, outer), m.sectors);
+      const double theta = 2.0 * std::numbers::pi / m.sectors;
+      const double resistance = std::log(r0 / inner) + well.skin;
+      if (!(permeability > 0.0) || !(resistance > 0.0)) continue;
+      connections.push_back({cell, permeability * part * length * theta / resistance, {md0, md1}});
+    }
+  }
+  return connections;
+}
+
+}  // namespace wellknit

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// The reference space E_ref (method.md §4): the host near a well as a non-uniform Cartesian grid.
+///
+/// Source: T. Mouton, C. Bennis, H. Borouchaki (key Mouton).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/cell_locator.h"
+#include "algorithm/host_mesh.h"
+#include "model/corner_point_grid.h"
+
+namespace wellknit {
+
+/// A block of cells, [low, high) along each axis.
+struct CellRange {
+  std::array<std::int64_t, 3> low{};
+  std::array<std::int64_t, 3> high{};
+
+  [[nodiscard]] bool contains(const std::array<std::int64_t, 3>& c) const {
+    return c[0] >= low[0] && c[0] < high[0] && c[1] >= low[1] && c[1] < high[1] && c[2] >= low[2] && c[2] < high[2];
+  }
+};
+
+/// An axis-parallel box in E_ref.
+struct Box {
+  Vec3 low;
+  Vec3 high;
+};
+
+/// Planes of E_ref. In a left-handed grid the second axis runs backwards, so that the mapping keeps orientation.
+class ReferenceSpace {
+ public:
+  /// Spacings are the mean edge lengths of the existing cells of `region` (of all cells where none exists), rounded to a multiple of
+  /// reference_resolution so that mirror images are exact.
+  ReferenceSpace(const CornerPointGrid& grid, const HostMesh& host, const CellRange& region);
+
+  /// Coordinate of plane `index` (0 … n) of an axis.
+  [[nodiscard]] double plane(int axis, std::int64_t index) const {
+    return planes_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] Vec3 node(std::int64_t i, std::int64_t j, std::int64_t k) const { return {plane(0, i), plane(1, j), plane(2, k)}; }
+  [[nodiscard]] Box box(const std::array<std::int64_t, 3>& cell) const;
+  /// phi_0 of a located point.
+  [[nodiscard]] Vec3 map(const std::array<std::int64_t, 3>& cell, const Vec3& uvw) const;
+  /// The place among the planes of a coordinate: index of the cell (0 … n-1, the end ones also outside) and the fraction in it.
+  [[nodiscard]] std::pair<std::int64_t, double> place(int axis, double coordinate) const;
+
+ private:
+  std::array<std::vector<double>, 3> planes_;
+};
+
+/// Coordinates of E_ref and of the sites are multiples of this, m: reflections in the planes are then exact in doubles up to 2^18 m.
+inline constexpr double reference_resolution = 0x1p-34;
+
+/// Nearest multiple of reference_resolution.
+double on_reference_lattice(double value);
+
+}  // namespace wellknit
