@@ -46,7 +46,8 @@ std::vector<double> lines(const BlockCentredGrid& grid, std::span<const double> 
 
 /// Depth of the top of every cell.
 std::vector<double> complete_tops(const BlockCentredGrid& grid) {
-  const auto [nx, ny, nz] = grid.dimensions;
+  const std::int64_t nx = grid.dimensions[0];
+  const std::int64_t ny = grid.dimensions[1];
   std::vector<double> tops(grid.tops.begin(), grid.tops.end());
   const auto layer = static_cast<std::size_t>(nx * ny);
   for (std::size_t cell = 0; cell < tops.size(); ++cell) {

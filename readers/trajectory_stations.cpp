@@ -96,6 +96,8 @@ std::vector<MeasuredDepthRange> open_ranges(const std::vector<Station>& stations
     else
       ranges.push_back({from, to});
   }
+  // Stations closer than a double can halve leave a range of no length.
+  std::erase_if(ranges, [](const MeasuredDepthRange& range) { return range.to <= range.from; });
   return ranges;
 }
 
