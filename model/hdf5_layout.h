@@ -90,11 +90,13 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(RadialIndex) == 3 * s
 inline constexpr const char* schema_name = "wellknit-mesh";
 inline constexpr const char* schema_version = "1.0";
 
-/// A string type of variable length, UTF-8.
-inline Handle string_type() {
+/// A string type of fixed length, UTF-8, padded with zero bytes. Not the variable-length one: HDF5 keeps those strings in heaps
+/// without checksums and crashes on damaged ones.
+inline Handle string_type(std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.get(), H5T_VARIABLE);
+  H5Tset_size(type.get(), length);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
   return type;
 }
 

@@ -250,9 +250,9 @@ FacePair face_pair(CellKind a, CellKind b) {
 }
 
 double non_orthogonality(const Vec3& area_vector, const Vec3& line) {
-  const double lengths = area_vector.norm() * line.norm();
-  if (lengths == 0.0) return 90.0;  // no direction, no flux
-  return std::acos(std::clamp(area_vector.dot(line) / lengths, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  if (area_vector.norm() == 0.0 || line.norm() == 0.0) return 90.0;  // no direction, no flux
+  // The arc cosine would lose half of the digits near 0.
+  return std::atan2(area_vector.cross(line).norm(), area_vector.dot(line)) * 180.0 / std::numbers::pi;
 }
 
 double median_face_area(const IdVector<FaceId, PolygonGeometry>& faces) {

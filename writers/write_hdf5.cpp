@@ -23,13 +23,26 @@ using hdf5::Handle;
 std::string link_name(const std::string& name, std::set<std::string>& taken) {
   std::string base = name;
   std::replace(base.begin(), base.end(), '/', '_');
-  // A C string ends at the first zero byte.
+  // Zero bytes pad the string in the file.
   std::replace(base.begin(), base.end(), '\0', '_');
   if (base.empty() || base == ".") base = "_";
   std::string link = base;
   for (int n = 2; !taken.insert(link).second; ++n) link = fmt::format("{}_{}", base, n);
   return link;
 }
+
+/// Strings side by side, each padded with zero bytes to the longest: HDF5's fixed-length strings.
+struct PaddedStrings {
+  explicit PaddedStrings(std::span<const std::string> values) {
+    for (const std::string& value : values) length = std::max(length, value.size());
+    for (const std::string& value : values) {
+      bytes += value;
+      bytes.append(length - value.size(), '\0');
+    }
+  }
+  std::size_t length = 1;  ///< HDF5 has no strings of length 0
+  std::string bytes;
+};
 
 /// A file under construction. Every call that fails throws WriteError.
 class MeshFileWriter {
@@ -43,7 +56,6 @@ class MeshFileWriter {
     need(H5Pset_obj_track_times(group_properties_.get(), false), "groups");
     need(H5Pset_obj_track_times(dataset_properties_.get(), false), "datasets");
     need(H5Pset_layout(dataset_properties_.get(), H5D_CONTIGUOUS), "datasets");
-    need(H5Pset_fill_time(dataset_properties_.get(), H5D_FILL_TIME_NEVER), "datasets");
   }
 
   void group(const std::string& path) {
@@ -60,17 +72,17 @@ class MeshFileWriter {
   }
 
   void strings(const std::string& path, const std::vector<std::string>& values) {
-    const Handle type = hdf5::string_type();
+    const PaddedStrings padded(values);
+    const Handle type = hdf5::string_type(padded.length);
     const std::array<hsize_t, 1> shape{values.size()};
     const Handle set = dataset(path, type.get(), shape);
-    const std::vector<const char*> pointers = c_strings(values);
-    if (!values.empty()) need(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), path);
+    if (!values.empty()) need(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.bytes.data()), path);
   }
 
   void attribute(const std::string& object, const std::string& name, const std::string& value) {
-    const Handle type = hdf5::string_type();
-    const char* pointer = value.c_str();
-    attribute_data(object, name, type.get(), type.get(), {}, &pointer);
+    const PaddedStrings padded(std::span(&value, 1));
+    const Handle type = hdf5::string_type(padded.length);
+    attribute_data(object, name, type.get(), type.get(), {}, padded.bytes.data());
   }
   void attribute(const std::string& object, const std::string& name, double value) {
     attribute_data(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &value);
@@ -85,10 +97,10 @@ class MeshFileWriter {
   }
   /// Rows of `columns` strings.
   void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values, hsize_t columns) {
-    const Handle type = hdf5::string_type();
+    const PaddedStrings padded(values);
+    const Handle type = hdf5::string_type(padded.length);
     const std::array<hsize_t, 2> shape{values.size() / columns, columns};
-    const std::vector<const char*> pointers = c_strings(values);
-    attribute_data(object, name, type.get(), type.get(), shape, pointers.data());
+    attribute_data(object, name, type.get(), type.get(), shape, padded.bytes.data());
   }
 
   void finish() {
@@ -107,8 +119,8 @@ class MeshFileWriter {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     need(H5Pset_obj_track_times(creation.get(), false), "the root group");
-    // Fixed bounds: a newer library must not choose a newer layout, and HDF5 1.8 can read the file.
-    need(H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "the version bounds");
+    // Fixed bounds: a newer library must not choose a newer layout. That of 1.8, of 2008, is the oldest with checksums.
+    need(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18), "the version bounds");
     Handle made(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
     need(made.get(), "its creation");
     return made;
@@ -131,13 +143,6 @@ class MeshFileWriter {
                       H5Aclose);
     need(made.get(), name);
     if (H5Sget_simple_extent_npoints(space.get()) > 0) need(H5Awrite(made.get(), memory_type, data), name);
-  }
-
-  static std::vector<const char*> c_strings(const std::vector<std::string>& values) {
-    std::vector<const char*> pointers;
-    pointers.reserve(values.size());
-    for (const std::string& value : values) pointers.push_back(value.c_str());
-    return pointers;
   }
 
   std::string target_;

@@ -198,8 +198,9 @@ std::array<double, 2> on_circle(double radius, int corner) { return {radius * st
 std::array<double, 2> on_square(double half, int corner) {
   const double c = std::cos(azimuth(corner));
   const double s = std::sin(azimuth(corner));
-  const double reach = half / std::max(std::abs(c), std::abs(s));
-  return {reach * c, reach * s};
+  // Exactly on the side: a polygon with a vertex 1e-16 m inside of an edge would not be convex.
+  if (std::abs(c) > std::abs(s)) return {std::copysign(half, c), half * s / std::abs(c)};
+  return {half * c / std::abs(s), std::copysign(half, s)};
 }
 
 /// Polygons 0-7 the inner ring, 8-15 the outer, 16-23 transition, 24-31 host from the corner (-12, -12).
@@ -320,6 +321,19 @@ Mesh ring_in_boxes() {
   mesh.wells.push_back(vertical_well("I", mesh, {CellId(24), CellId(in_layer + 24)}, 5e-13));
   mesh.wells.raw().back().type = WellType::injector;
   mesh.source_dimensions = {3, 3, 2};
+  return mesh;
+}
+
+Mesh twisted_box() {
+  Plan plan;
+  add_polygon(plan, rectangle(0, 0, 10, 10));
+  Mesh mesh = extruded(plan, {1000.0, 1010.0, 1020.0});
+  for (std::size_t corner = 0; corner < 4; ++corner) mesh.vertices[VertexId(4 + corner)].z() += corner % 2 == 0 ? 0.5 : -0.5;
+  fill_cells(mesh, 2);
+  mesh.cells.kind[CellId(1)] = CellKind::transition;
+  mesh.cells.source_cell[CellId(1)] = HostCellId();
+  fill_connections(mesh);
+  mesh.source_dimensions = {1, 1, 2};
   return mesh;
 }
 

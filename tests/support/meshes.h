@@ -26,6 +26,10 @@ Mesh box_grid(std::int64_t n);
 /// split faces; an injector in the first corner cell of both layers. 64 cells in all.
 Mesh ring_in_boxes();
 
+/// A hexahedral host cell of 10 x 10 x 10 m at 1000 m on a transition prism of that size; the four vertices of the face between them
+/// lie 0.5 m off its plane, in turn above and below.
+Mesh twisted_box();
+
 /// Provenance with every field set and two sources.
 Provenance provenance();
 

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "writers/formats.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "tests/support/meshes.h"
+#include "tests/support/scratch_folder.h"
+
+namespace wellknit {
+namespace {
+
+TEST(WriterFormats, HaveUniqueNamesAndExtensions) {
+  std::set<std::string_view> names;
+  std::set<std::string_view> extensions;
+  for (const WriterFormat& format : writer_formats()) {
+    EXPECT_TRUE(names.insert(format.name).second) << format.name;
+    EXPECT_FALSE(format.description.empty());
+    EXPECT_FALSE(format.extensions.empty());
+    for (const std::string_view extension : format.extensions) EXPECT_TRUE(extensions.insert(extension).second) << extension;
+    EXPECT_TRUE(std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document))) << format.document;
+  }
+  EXPECT_EQ(names, (std::set<std::string_view>{"deck", "hdf5", "vtu"}));
+}
+
+TEST(WriterFormats, AreFoundByNameInAnyCase) {
+  ASSERT_NE(find_writer("VTU"), nullptr);
+  EXPECT_EQ(find_writer("VTU")->name, "vtu");
+  EXPECT_EQ(find_writer("stl"), nullptr);
+}
+
+TEST(WriterFormats, AreFoundByExtensionInAnyCase) {
+  ASSERT_NE(writer_of_path("some.folder/OUT.DATA"), nullptr);
+  EXPECT_EQ(writer_of_path("some.folder/OUT.DATA")->name, "deck");
+  EXPECT_EQ(writer_of_path("out.h5")->name, "hdf5");
+  EXPECT_EQ(writer_of_path("h5"), nullptr);
+  EXPECT_EQ(writer_of_path("data.h5/out"), nullptr);
+}
+
+TEST(WriterFormats, WriteEachAFile) {
+  const ScratchFolder folder;
+  for (const WriterFormat& format : writer_formats()) {
+    const std::string path = folder.file("out" + std::string(format.extensions.front()));
+    format.write(meshes::ring_in_boxes(), meshes::provenance(), path, Overwrite::refuse);
+    EXPECT_GT(std::filesystem::file_size(path), 1000U) << format.name;
+  }
+  EXPECT_EQ(folder.count(), writer_formats().size());  // nothing temporary is left
+}
+
+}  // namespace
+}  // namespace wellknit

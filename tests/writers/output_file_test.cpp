@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "writers/output_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "model/errors.h"
+#include "tests/support/scratch_folder.h"
+
+namespace wellknit {
+namespace {
+
+std::string message_of(const std::string& path, Overwrite overwrite) {
+  try {
+    OutputFile file(path, overwrite);
+  } catch (const WriteError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void write_text(const std::string& path, const std::string& text, Overwrite overwrite) {
+  OutputStream out(path, overwrite);
+  out.stream() << text;
+  out.commit();
+}
+
+TEST(OutputFile, AppearsUnderItsNameOnlyWhenCommitted) {
+  const ScratchFolder folder;
+  OutputStream out(folder.file("out.txt"), Overwrite::refuse);
+  out.stream() << "text";
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out.txt")));
+  out.commit();
+  EXPECT_EQ(folder.read("out.txt"), "text");
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(OutputFile, LeavesNothingWithoutACommit) {
+  const ScratchFolder folder;
+  {
+    OutputStream out(folder.file("out.txt"), Overwrite::refuse);
+    out.stream() << "text";
+    EXPECT_EQ(folder.count(), 1U);
+  }
+  EXPECT_EQ(folder.count(), 0U);
+}
+
+TEST(OutputFile, RefusesAnExistingFile) {
+  const ScratchFolder folder;
+  folder.write("out.txt", "precious");
+  EXPECT_EQ(message_of(folder.file("out.txt"), Overwrite::refuse),
+            folder.file("out.txt") + ": cannot be written: it exists already; pass --overwrite to replace it");
+  EXPECT_EQ(folder.read("out.txt"), "precious");
+}
+
+TEST(OutputFile, ReplacesAnExistingFileWhenAsked) {
+  const ScratchFolder folder;
+  folder.write("out.txt", "old");
+  write_text(folder.file("out.txt"), "new", Overwrite::allow);
+  EXPECT_EQ(folder.read("out.txt"), "new");
+}
+
+TEST(OutputFile, KeepsTheOldFileWhenItIsNotCommitted) {
+  const ScratchFolder folder;
+  folder.write("out.txt", "old");
+  { OutputStream out(folder.file("out.txt"), Overwrite::allow); }
+  EXPECT_EQ(folder.read("out.txt"), "old");
+}
+
+TEST(OutputFile, RefusesATargetThatAppearedMeanwhile) {
+  const ScratchFolder folder;
+  OutputFile file(folder.file("out.txt"), Overwrite::refuse);
+  folder.write("out.txt", "somebody else's");
+  EXPECT_THROW(file.commit(), WriteError);
+  EXPECT_EQ(folder.read("out.txt"), "somebody else's");
+}
+
+TEST(OutputFile, NamesAMissingFolder) {
+  const ScratchFolder folder;
+  const std::string message = message_of(folder.file("none/out.txt"), Overwrite::refuse);
+  EXPECT_NE(message.find("there is no folder " + folder.file("none")), std::string::npos) << message;
+}
+
+TEST(OutputFile, RefusesAFolderADeviceAndAnEmptyName) {
+  const ScratchFolder folder;
+  EXPECT_NE(message_of(folder.path().string(), Overwrite::allow).find("it is a folder"), std::string::npos);
+  EXPECT_NE(message_of("/dev/null", Overwrite::allow).find("not a regular file"), std::string::npos);
+  EXPECT_NE(message_of("", Overwrite::allow).find("empty"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(OutputFile, NamesAFolderThatIsNotWritable) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const ScratchFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_NE(message_of(folder.file("out.txt"), Overwrite::refuse).find("is not writable"), std::string::npos);
+}
+
+TEST(OutputFile, FollowsASymbolicLink) {
+  const ScratchFolder folder;
+  folder.write("real.txt", "old");
+  std::filesystem::create_symlink("real.txt", folder.file("link.txt"));
+  write_text(folder.file("link.txt"), "new", Overwrite::allow);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
+  EXPECT_EQ(folder.read("real.txt"), "new");
+}
+
+TEST(OutputFile, ReportsAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const ScratchFolder folder;
+  OutputStream out(folder.file("out.txt"), Overwrite::refuse);
+  // The stream's file becomes the device that is always full.
+  out.stream().close();
+  out.stream().open("/dev/full", std::ios::binary);
+  out.stream() << std::string(100'000, 'x');
+  EXPECT_THROW(out.commit(), WriteError);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out.txt")));
+}
+
+}  // namespace
+}  // namespace wellknit
