@@ -166,7 +166,7 @@ constexpr std::array options{
     BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value, set_default<"bore">},
     BuildOption{"sectors", "N", "Cells around a well [10]", Kind::value, set_default<"sectors">},
     BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5]", Kind::value, set_default<"rings">},
-    BuildOption{"growth", "RATIO", "Ratio of successive ring radii [(radius/bore)^(1/rings)]", Kind::value,
+    BuildOption{"growth", "RATIO", "Ratio of successive ring widths [radii in geometric progression]", Kind::value,
                 set_default<"growth">},
     BuildOption{"segments", "N", "Cells along a swept well [one for about one drainage radius]", Kind::value,
                 set_default<"segments">},
