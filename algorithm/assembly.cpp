@@ -78,38 +78,71 @@ class Assembler {
   void add_radial_cells(const Tube& tube) {
     const RadialMesh& m = tube.real;
     out_.tubes.push_back({&tube, CellId(out_.mesh.cells.size())});
-    for (int k = 0; k < m.segments; ++k)
+    for (int k = 0; k < m.segments; ++k) {
+      const bool has_spheres = !tube.layered && spheres_fit(m, k);
       for (int s = 0; s < m.sectors; ++s)
         for (int r = 0; r < m.rings; ++r) {
-          const CellId cell = add_cell(CellKind::radial, radial_center(tube, k, s, r));
+          const CellId cell = add_cell(CellKind::radial, has_spheres ? sphere_center(m, k, s, r) : middle_center(m, k, s, r));
           out_.mesh.cells.well[cell] = WellId(tube.well);
           out_.mesh.cells.radial_index[cell] = {k, s, r};
         }
+    }
   }
 
-  /// Centre of the circle through a sector's trapezoid where it lies inside it, else half way (method.md §3); between the two stations
-  /// it moves to the centre of the sphere through all eight vertices.
-  static Vec3 radial_center(const Tube& tube, int k, int s, int r) {
-    const RadialMesh& m = tube.real;
+  /// Places in one sector's trapezoid at a station: the inner and outer chords' middles, and between them the centre of the circle through its
+  /// four corners where that lies inside, else half way (method.md §3).
+  struct Trapezoid {
+    Vec3 low;
+    Vec3 high;
+    Vec3 center;
+  };
+
+  static Trapezoid trapezoid(const RadialMesh& m, int station, int s, int r) {
     const double half_angle = std::numbers::pi / m.sectors;
+    const Vec3& axis = m.axis[static_cast<std::size_t>(station)];
+    const double inner = (m.point(station, r, s) - axis).norm();
+    const double outer = (m.point(station, r + 1, s) - axis).norm();
+    const bool has_circumcentre = outer / inner * std::cos(2.0 * half_angle) > 1.02;
+    const double at = has_circumcentre ? 0.5 * (inner + outer) / std::pow(std::cos(half_angle), 2) : 0.5 * (inner + outer);
+    Trapezoid t;
+    t.low = 0.5 * (m.point(station, r, s) + m.point(station, r, s + 1));
+    t.high = 0.5 * (m.point(station, r + 1, s) + m.point(station, r + 1, s + 1));
+    t.center = t.low + (at - inner) / (outer - inner) * (t.high - t.low);
+    return t;
+  }
+
+  static Vec3 middle_center(const RadialMesh& m, int k, int s, int r) {
+    return 0.5 * (trapezoid(m, k, s, r).center + trapezoid(m, k + 1, s, r).center);
+  }
+
+  /// Centre of the sphere through the eight vertices of a cell.
+  static Vec3 sphere_center(const RadialMesh& m, int k, int s, int r) {
     const Vec3& axis = m.axis[static_cast<std::size_t>(k)];
-    const double inner = (m.point(k, r, s) - axis).norm();
-    const double outer = (m.point(k, r + 1, s) - axis).norm();
-    const bool has_circumcentre = outer / inner > 1.02 / std::cos(2.0 * half_angle) && std::cos(2.0 * half_angle) > 0.0;
-    const double at = has_circumcentre ? 0.5 * (inner + outer) / std::cos(half_angle) : 0.5 * (inner + outer) * std::cos(half_angle);
-    const double part = (at / std::cos(half_angle) - inner) / (outer - inner);
-    const auto in_ring = [&](int station) {
-      const Vec3 low = 0.5 * (m.point(station, r, s) + m.point(station, r, s + 1));
-      const Vec3 high = 0.5 * (m.point(station, r + 1, s) + m.point(station, r + 1, s + 1));
-      return Vec3(low + part * (high - low));
-    };
-    const Vec3 near = in_ring(k);
-    const Vec3 middle = 0.5 * (near + in_ring(k + 1));
-    if (tube.layered) return middle;
+    const Vec3 near = trapezoid(m, k, s, r).center;
     const Vec3 normal = (m.point(k, m.rings, 0) - axis).cross(m.point(k, m.rings, 1) - axis).normalized();
     const Vec3 chord = m.axis[static_cast<std::size_t>(k) + 1] - axis;
-    const double t = (axis + 0.5 * chord - near).dot(chord) / normal.dot(chord);
-    return near + t * normal;
+    return near + (axis + 0.5 * chord - near).dot(chord) / normal.dot(chord) * normal;
+  }
+
+  /// In a bend the spheres' centres move out of thin rings. They are used for all cells of a segment or for none: a mixture would turn the
+  /// lines between centres.
+  static bool spheres_fit(const RadialMesh& m, int k) {
+    for (int s = 0; s < m.sectors; ++s)
+      if (!spheres_fit_sector(m, k, s)) return false;
+    return true;
+  }
+
+  static bool spheres_fit_sector(const RadialMesh& m, int k, int s) {
+    constexpr double margin = 0.1;  // of the ring's width
+    for (int r = 0; r < m.rings; ++r) {
+      const Trapezoid one = trapezoid(m, k, s, r);
+      const Trapezoid two = trapezoid(m, k + 1, s, r);
+      const Vec3 low = 0.5 * (one.low + two.low);
+      const Vec3 across = 0.5 * (one.high + two.high) - low;
+      const double at = (sphere_center(m, k, s, r) - low).dot(across) / across.squaredNorm();
+      if (at < margin || at > 1.0 - margin) return false;
+    }
+    return true;
   }
 
   VertexId host_vertex(VertexId v) {

@@ -361,6 +361,12 @@ class BoundaryBuilder {
 
 // ---- rounds -----------------------------------------------------------------------------------------------------------
 
+std::vector<std::size_t> all_wells(const Cavity& cavity) {
+  std::vector<std::size_t> wells;
+  for (const Tube& t : cavity.tubes) wells.push_back(t.well);
+  return wells;
+}
+
 double least_t_high(const BoundaryFace& face, const CavityOptions& options) {
   if (face.kind == BoundaryFaceKind::host) return options.least_host_clearance * face.natural;
   return options.least_radial_clearance * std::min(face.natural, face.radius);
@@ -371,11 +377,9 @@ bool is_good(const BoundaryFace& face, const CavityOptions& options) {
   return face.t_high >= least_t_high(face, options) && face.t_low < 0.9 * std::min(face.t_high, face.natural);
 }
 
-/// Removes all cells around a node.
-bool remove_at_node(const Node& n, RemovedCells& removed) {
-  bool changed = false;
-  for (int c = 0; c < 8; ++c) changed |= removed.add({n[0] - (c & 1), n[1] - ((c >> 1) & 1), n[2] - (c >> 2)});
-  return changed;
+/// Removes all cells around a node; an earlier face of the same round may have done so already.
+void remove_at_node(const Node& n, RemovedCells& removed) {
+  for (int c = 0; c < 8; ++c) removed.add({n[0] - (c & 1), n[1] - ((c >> 1) & 1), n[2] - (c >> 2)});
 }
 
 /// One face that is not admissible: removes what is in its way. Returns a reason when nothing can be removed.
@@ -391,8 +395,8 @@ std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cav
     return NoCavity{"the tube touches the outside of the grid: choose a smaller radius", {well}};
   const CavityVertex& v = cavity.vertices[static_cast<std::size_t>(culprit)];
   if (v.is_host) {
-    if (remove_at_node(v.node, removed)) return std::nullopt;
-    return NoCavity{"a node on the outside of the grid stands too close to the tube: choose a smaller radius", {well}};
+    remove_at_node(v.node, removed);
+    return std::nullopt;
   }
   const std::size_t other = cavity.tubes[v.tube].well;
   if (other == well) return NoCavity{"the tube comes too close to itself: choose a smaller radius or more segments", {well}};
@@ -419,12 +423,6 @@ std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCell
                              cell_name(c), cell_name(outside));
     }
   return std::nullopt;
-}
-
-std::vector<std::size_t> all_wells(const Cavity& cavity) {
-  std::vector<std::size_t> wells;
-  for (const Tube& t : cavity.tubes) wells.push_back(t.well);
-  return wells;
 }
 
 /// Nodes of the footprint on the mirror planes that no boundary face uses.
@@ -543,6 +541,8 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
       if (!is_good(f, options))
         if (auto reason = make_room(frame.grid, cavity, f, removed)) return *reason;
     if (removed.count() != before) continue;
+    if (!std::all_of(cavity.faces.begin(), cavity.faces.end(), [&](const BoundaryFace& f) { return is_good(f, options); }))
+      return NoCavity{"the tube comes too close to a corner of the cavity that cannot be removed: choose a smaller radius", all_wells(cavity)};
     if (dilations == 0) break;
     --dilations;
     dilate(removed);

@@ -59,6 +59,12 @@ CellLocator::CellLocator(const CornerPointGrid& grid) : grid_(grid) {
       high = high.cwiseMax(column_boxes_.back().high);
     }
   }
+  bounds_ = {Vec3(origin_[0], origin_[1], column_boxes_.front().top),
+             Vec3(high[0], high[1], column_boxes_.front().bottom)};
+  for (const Box& box : column_boxes_) {
+    bounds_[0][2] = std::min(bounds_[0][2], box.top - least_thickness);
+    bounds_[1][2] = std::max(bounds_[1][2], box.bottom + least_thickness);
+  }
   bins_ = {static_cast<std::size_t>(nx), static_cast<std::size_t>(ny)};
   for (int axis = 0; axis < 2; ++axis) {
     const double size = (high[axis] - origin_[axis]) / static_cast<double>(bins_[static_cast<std::size_t>(axis)]);
@@ -162,6 +168,7 @@ std::optional<Location> CellLocator::search_by_cells(const Vec3& point) const {
     const Box& box = column_boxes_[static_cast<std::size_t>(column)];
     if ((point.head<2>().array() < box.low.array()).any() || (point.head<2>().array() > box.high.array()).any())
       continue;
+    if (point[2] < box.top - least_thickness || point[2] > box.bottom + least_thickness) continue;
     for (std::int64_t k = 0; k < nz; ++k) {
       const auto cell = grid_.cell_id(column % nx, column / nx, k);
       if (best && best->cell < cell) break;

@@ -36,6 +36,9 @@ class CellLocator {
   /// (u, v, w) of the point in this cell when the cell holds it.
   [[nodiscard]] std::optional<Vec3> locate_in(HostCellId cell, const Vec3& point) const;
 
+  /// Lowest and highest x, y, depth of all cells, a little widened.
+  [[nodiscard]] std::array<Vec3, 2> bounds() const { return bounds_; }
+
  private:
   struct Box {
     Eigen::Vector2d low;
@@ -55,8 +58,9 @@ class CellLocator {
 
   const CornerPointGrid& grid_;
   std::vector<Box> column_boxes_;  ///< nx ny
-  Eigen::Vector2d origin_;         ///< of the bins, m
-  Eigen::Vector2d bin_size_;       ///< m
+  std::array<Vec3, 2> bounds_;
+  Eigen::Vector2d origin_;    ///< of the bins, m
+  Eigen::Vector2d bin_size_;  ///< m
   std::array<std::size_t, 2> bins_{1, 1};
   std::vector<std::size_t> bin_start_;     ///< offsets into bin_columns_
   std::vector<std::int64_t> bin_columns_;  ///< columns i + nx j, rising within a bin

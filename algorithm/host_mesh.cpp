@@ -5,7 +5,7 @@
 // the j direction with their fault polygons (host_strip), and last the tops and bases, which need the strips' crossings
 // on their edges. Each step runs over rows; rows are joined in a fixed order, so the result does not depend on the
 // number of threads. The structure of the input follows D. K. Ponting, "Corner point geometry in reservoir simulation",
-// 1989 (key Ponting); the cutting of fault faces is our own (docs/algorithms/host.md).
+// 1989 (key Ponting1989); the cutting of fault faces is our own (docs/algorithms/host.md).
 
 #include "algorithm/host_mesh.h"
 

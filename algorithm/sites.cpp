@@ -53,7 +53,10 @@ Offsets first_offsets(const Cavity& cavity) {
     const double in = std::min(part_of_t_high * f.t_high, f.natural);
     t.in.push_back(f.t_low > 0.0 ? std::max(in, 0.5 * (f.t_low + f.t_high)) : in);
     // Any outside site between the bounds gives the same face; a natural one keeps the numbers well scaled.
-    t.out.push_back(f.natural_outside > f.t_low ? f.natural_outside : f.t_low + 0.1 * std::min(t.in.back() - f.t_low, f.radius));
+    // The natural one is the centre of the kept cell's box; its sphere passes through all eight corners, so that rounding must not push it
+    // out of the bounds that those corners set.
+    const bool is_natural = f.natural_outside >= f.t_low - 1e-9 * f.radius;
+    t.out.push_back(is_natural ? f.natural_outside : f.t_low + 0.1 * std::min(t.in.back() - f.t_low, f.radius));
   }
   return t;
 }
@@ -110,11 +113,18 @@ class SiteList {
   std::multimap<double, std::int32_t> by_x_;
 };
 
-void sort_lists(std::vector<Site>& sites) {
-  for (Site& s : sites) {
+/// Adds the vertices that lie on a site's sphere without belonging to its face (a natural site's sphere passes through all corners of its
+/// box), and sorts the lists.
+void complete_lists(const std::vector<CavityVertex>& vertices, std::vector<Site>& sites) {
+  constexpr double on_sphere = 1e-9;  // of the weight: rounding of centre and weight; the next vertices are off by 1e-3 and more
+  tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t i) {
+    Site& s = sites[i];
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (std::abs((vertices[v].reference - s.center).squaredNorm() - s.weight) <= on_sphere * s.weight)
+        s.on_sphere.push_back(static_cast<std::int32_t>(v));
     std::sort(s.on_sphere.begin(), s.on_sphere.end());
     s.on_sphere.erase(std::unique(s.on_sphere.begin(), s.on_sphere.end()), s.on_sphere.end());
-  }
+  });
 }
 
 }  // namespace
@@ -145,8 +155,8 @@ Sites place_sites(const Cavity& cavity) {
     sites.inner_of.push_back(inner_list.add(on_axis(face, t.in[f]), r2 + t.in[f] * t.in[f], face.loop, tolerance, sites.inner));
     sites.outer_of.push_back(outer_list.add(on_axis(face, t.out[f]), r2 + t.out[f] * t.out[f], face.loop, tolerance, sites.outer));
   }
-  sort_lists(sites.inner);
-  sort_lists(sites.outer);
+  complete_lists(cavity.vertices, sites.inner);
+  complete_lists(cavity.vertices, sites.outer);
   return sites;
 }
 

@@ -51,7 +51,8 @@ std::optional<std::string> choose_centers(TransitionMesh& mesh) {
     if (!(volume > 0.0)) return fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) is inside out after the mapping", mesh.centers[c].x(),
                                             mesh.centers[c].y(), mesh.centers[c].z());
     const double size = std::cbrt(volume);
-    if (smallest_height(faces[c], mesh.centers[c]) > 1e-3 * size) continue;
+    // The site stays wherever it sees its cell: moving it costs orthogonality.
+    if (smallest_height(faces[c], mesh.centers[c]) > 1e-6 * size) continue;
     if (const auto p = point_that_sees_all(faces[c], mesh.centers[c], size))
       mesh.centers[c] = *p;
     else
