@@ -56,8 +56,7 @@ bool is_deck(std::string_view text) {
 bool is_grdecl(std::string_view text) {
   DeckTokens tokens(text);
   const DeckToken token = tokens.next();
-  if (token.kind != DeckToken::Kind::word || !is_keyword_name(token.text)) return false;
-  return find_deck_keyword(upper_case(token.text), DeckSection::bare) != nullptr || tokens.rest_of_line().empty();
+  return token.kind == DeckToken::Kind::word && find_deck_keyword(upper_case(token.text), DeckSection::bare) != nullptr;
 }
 
 std::string extension_of(const std::string& path) {

@@ -69,9 +69,15 @@ char separator_of(std::string_view line) {
 std::optional<Columns> parse_header(std::string_view line) {
   line = trimmed(line);
   if (line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
-  while (!line.empty() && (line.front() == '#' || is_blank(line.front()))) line.remove_prefix(1);
   Columns columns;
   columns.separator = separator_of(line);
+  if (line.substr(0, 1) == "#") {
+    // "#MD,X,Y,TVD" is a header; "# X Y TVD MD" is a comment that other formats open with.
+    if (columns.separator == ' ' || columns.separator == '\t') return std::nullopt;
+    line.remove_prefix(line.find_first_not_of("# \t"));
+  } else if (line.substr(0, 2) == "--") {
+    return std::nullopt;
+  }
   for (const std::string_view field : split_fields(line, columns.separator)) {
     std::string unit;
     const std::string name = column_name(field, unit);

@@ -52,6 +52,7 @@ void drop_repeated(StationList& list, std::vector<std::string>& notes) {
 
 double set_arc_length(StationList& list) {
   double length = 0.0;
+  if (!list.has_measured_depth) list.stations.front().measured_depth = 0.0;
   for (std::size_t n = 1; n < list.stations.size(); ++n) {
     length += distance(list.stations[n - 1], list.stations[n]);
     if (!list.has_measured_depth) list.stations[n].measured_depth = length;
