@@ -41,10 +41,10 @@ int count_from(int least, const std::string& text) {
   return value;
 }
 
-double growth_above_one(const std::string& text) {
-  constexpr const char* expected = "a ratio above 1";
+double positive_ratio(const std::string& text) {
+  constexpr const char* expected = "a ratio above 0";
   const double value = number<double>(text, expected);
-  if (value <= 1.0) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
+  if (value <= 0.0) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
   return value;
 }
 
@@ -124,7 +124,7 @@ bool set_radial(RadialChoice& radial, std::string_view key, const std::string& v
   } else if (key == "rings") {
     radial.rings = count_from(1, value);
   } else if (key == "growth") {
-    radial.growth = growth_above_one(value);
+    radial.growth = positive_ratio(value);
   } else if (key == "segments") {
     radial.segments = count_from(1, value);
   } else if (key == "mode") {

@@ -157,6 +157,17 @@ std::vector<Well> chosen_deck_wells(const BuildRequest& request, const Case& sou
   return chosen;
 }
 
+/// A tube that is wider than the whole grid is a slip in the options (feet, millimetres), not a well that happens not to fit.
+void require_room(const CornerPointGrid& grid, const std::vector<Well>& wells) {
+  Eigen::AlignedBox2d plan;
+  for (std::size_t i = 0; i + 2 < grid.coord.size(); i += 3) plan.extend(Eigen::Vector2d(grid.coord[i], grid.coord[i + 1]));
+  for (const Well& well : wells) {
+    if (2.0 * well.radial.drainage_radius < plan.sizes().minCoeff()) continue;
+    throw InvalidInput(fmt::format("well {}: a tube of radius {} m is larger than the grid, which is {:.6g} m by {:.6g} m; give a smaller radius",
+                                   well.name, well.radial.drainage_radius, plan.sizes().x(), plan.sizes().y()));
+  }
+}
+
 /// Everything that was read for the run.
 struct Inputs {
   Case source;
@@ -178,6 +189,7 @@ Inputs read_inputs(const BuildRequest& request) {
     std::ranges::move(wells_of_file(well, request, std::move(file)), std::back_inserter(in.wells));
     if (hashed.insert(well.file).second) in.files.push_back({well.file, sha256_hex(load_file(well.file).text)});
   }
+  require_room(in.source.grid, in.wells);
   std::set<std::string> names;
   for (const Well& well : in.wells) {
     if (!names.insert(well.name).second) {

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "cli/usage_error.h"
 #include "wellknit_version.h"
 
 namespace wellknit {
@@ -28,7 +29,6 @@ constexpr std::array table{
 
 Program::Program() : app_(std::make_unique<CLI::App>("Knits radial well meshes into corner-point grids.", "wellknit")) {
   app_->set_version_flag("--version", program_and_version());
-  app_->require_subcommand(1);
   app_->footer("Exit code: 0 done, 1 something is wrong with the data, 2 something is wrong with the command line.");
   for (const Entry& entry : table) {
     CLI::App* command = app_->add_subcommand(entry.name, entry.description);
@@ -42,7 +42,7 @@ int Program::run(int argc, const char* const* argv) {
   for (const Command& command : commands_) {
     if (command.app->parsed()) return command.run();
   }
-  return 0;
+  throw UsageError("no command given; wellknit --help lists them");
 }
 
 std::string program_and_version() { return std::string("wellknit ") + version; }

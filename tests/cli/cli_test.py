@@ -150,7 +150,7 @@ class BadInput(Case):
 
     def test_bad_option_values(self):
         for option, value in (("--radius", "-3"), ("--radius", "nan"), ("--sectors", "2"), ("--sectors", "4.5"), ("--rings", "0"),
-                              ("--growth", "1"), ("--segments", "0"), ("--mode", "spiral"), ("--threads", "0"), ("--refine", "2"),
+                              ("--growth", "0"), ("--segments", "0"), ("--mode", "spiral"), ("--threads", "0"), ("--refine", "2"),
                               ("--fault-policy", "heal"), ("--metric", "permeability"), ("--mapping", "best"),
                               ("--write", "vtu"), ("--write", "png=a.png"), ("--deck-wells", "")):
             with self.subTest(option=option, value=value):
@@ -201,7 +201,7 @@ class BadInput(Case):
     def test_nothing_given(self):
         self.fail_with(2, "build", mention=["CASE"])
         self.fail_with(2, "build", "box.GRDECL", mention=["-o"])
-        self.fail_with(2, mention=["subcommand"])
+        self.fail_with(2, mention=["command"])
         self.fail_with(2, "solve", "out.h5", mention=["solve"])
 
     def test_deck_wells_of_a_grid_without_wells(self):
