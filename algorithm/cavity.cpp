@@ -307,7 +307,9 @@ class BoundaryBuilder {
       face.kind = BoundaryFaceKind::cap;
       face.tube = t;
       face.natural = half;
-      face.natural_outside = -half;
+      // Short of the centre of the radial cell's sphere: that passes through the lateral face behind, and two outside sites with power 0 on
+      // one face would share it.
+      face.natural_outside = -0.6 * half;
       finish(face, end + (end - next));
     };
     for (int ring = 0; ring < mesh.rings; ++ring)
