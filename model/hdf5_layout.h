@@ -90,8 +90,8 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(RadialIndex) == 3 * s
 inline constexpr const char* schema_name = "wellknit-mesh";
 inline constexpr const char* schema_version = "1.0";
 
-/// A string type of fixed length, UTF-8, padded with zero bytes. Not the variable-length one: HDF5 keeps those strings in heaps
-/// without checksums and crashes on damaged ones.
+/// A string type of fixed length, UTF-8, padded with zero bytes. Not the variable-length one: HDF5 keeps those strings
+/// in heaps without checksums and crashes on damaged ones.
 inline Handle string_type(std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.get(), length);

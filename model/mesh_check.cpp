@@ -61,7 +61,9 @@ class MeshCheck {
 
   void finite_values() {
     for_each_array(mesh_, [&](std::string_view path, const auto& values) {
-      const std::string_view entity = path.starts_with("cells/") ? "cell" : path.starts_with("connections/") ? "connection" : "vertex";
+      const std::string_view entity = path.starts_with("cells/")         ? "cell"
+                                      : path.starts_with("connections/") ? "connection"
+                                                                         : "vertex";
       for (std::size_t i = 0; i < values.size(); ++i)
         // A transmissibility has a check of its own.
         if (!is_finite(values[i]) && path != "connections/transmissibility")
@@ -84,7 +86,8 @@ class MeshCheck {
       std::sort(sorted.begin(), sorted.end());
       const auto distinct = std::distance(sorted.begin(), std::unique(sorted.begin(), sorted.end()));
       const std::string entity = fmt::format("face {}", f);
-      if (distinct < 3) add("face with fewer than 3 distinct vertices", entity, fmt::format("{} of {}", distinct, loop.size()));
+      if (distinct < 3)
+        add("face with fewer than 3 distinct vertices", entity, fmt::format("{} of {}", distinct, loop.size()));
       for (std::size_t i = 0; i < loop.size(); ++i)
         if (loop.size() > 1 && loop[i] == loop[(i + 1) % loop.size()])
           add("vertex repeated in a face", entity, fmt::format("vertex {}", loop[i].value()));
@@ -133,16 +136,19 @@ class MeshCheck {
       const PolygonGeometry& face = geometry_[side.face];
       flux += sign * face.area_vector;
       area += face.area;
-      const double pyramid = sign / 6.0 * fan_volume6(face_points(mesh_, side.face, points_), face.mean, mesh_.cells.center[cell]);
+      const double pyramid =
+          sign / 6.0 * fan_volume6(face_points(mesh_, side.face, points_), face.mean, mesh_.cells.center[cell]);
       volume += pyramid;
       if (!(pyramid > 0.0)) ++unseen;
     }
     volumes_.push_back(volume);
     const std::string entity = fmt::format("cell {}", cell.value());
     const double open = area > 0.0 ? flux.norm() / area : 0.0;
-    if (!(open <= options_.open_surface_limit)) add("open surface", entity, fmt::format("area vectors add up to {:.3g} of the area", open));
+    if (!(open <= options_.open_surface_limit))
+      add("open surface", entity, fmt::format("area vectors add up to {:.3g} of the area", open));
     if (!(volume > 0.0)) add("volume not positive", entity, fmt::format("{:.6g} m3 from its faces", volume));
-    if (made && unseen > 0) add(not_seen_from_centre, entity, fmt::format("{} of {} faces", unseen, cell_faces_.of(cell).size()));
+    if (made && unseen > 0)
+      add(not_seen_from_centre, entity, fmt::format("{} of {} faces", unseen, cell_faces_.of(cell).size()));
   }
 
   void stored_volumes() {
@@ -158,7 +164,8 @@ class MeshCheck {
       const double scale = std::max(1e-6 * std::abs(mean), std::abs(volumes_[c]));
       const double difference = std::abs(stored - volumes_[c]) / scale;
       if (!(difference <= (made ? options_.volume_limit : options_.host_volume_limit)))
-        add("stored volume differs from the faces'", entity, fmt::format("{:.9g} m3 stored, {:.9g} m3 from its faces", stored, volumes_[c]));
+        add("stored volume differs from the faces'", entity,
+            fmt::format("{:.9g} m3 stored, {:.9g} m3 from its faces", stored, volumes_[c]));
     }
   }
 
@@ -171,16 +178,21 @@ class MeshCheck {
       const double t = all.transmissibility[id];
       const std::string entity = fmt::format("connection {}", i);
       if (pair[0] == pair[1]) add("connection of a cell to itself", entity, fmt::format("cell {}", pair[0].value()));
-      if (pair[0] > pair[1]) add("connection with the larger cell first", entity, fmt::format("cells {} and {}", pair[0].value(), pair[1].value()));
-      if (!std::isfinite(t) || t < 0.0) add("transmissibility negative or not finite", entity, fmt::format("{:.6g} m3", t));
+      if (pair[0] > pair[1])
+        add("connection with the larger cell first", entity,
+            fmt::format("cells {} and {}", pair[0].value(), pair[1].value()));
+      if (!std::isfinite(t) || t < 0.0)
+        add("transmissibility negative or not finite", entity, fmt::format("{:.6g} m3", t));
       if (!all.face[id].is_valid()) faceless.push_back(pair);
       const bool needs_face = all.kind[id] == ConnectionKind::face || all.kind[id] == ConnectionKind::fault;
-      if (needs_face && !all.face[id].is_valid()) add("connection without its face", entity, "its kind says that it has one");
+      if (needs_face && !all.face[id].is_valid())
+        add("connection without its face", entity, "its kind says that it has one");
     }
     std::sort(faceless.begin(), faceless.end());
     for (std::size_t i = 1; i < faceless.size(); ++i)
       if (faceless[i] == faceless[i - 1])
-        add("pair connected twice without a face", fmt::format("cells {} and {}", faceless[i][0].value(), faceless[i][1].value()), "");
+        add("pair connected twice without a face",
+            fmt::format("cells {} and {}", faceless[i][0].value(), faceless[i][1].value()), "");
   }
 
   void faces_and_connections() {
@@ -196,20 +208,23 @@ class MeshCheck {
       auto pair = mesh_.connections.cells[ConnectionId(i)];
       std::sort(pair.begin(), pair.end());
       if (cells != pair)
-        add("connection and face of different cells", entity, fmt::format("face {} lies between {} and {}", face.value(), cells[0].value(), cells[1].value()));
+        add("connection and face of different cells", entity,
+            fmt::format("face {} lies between {} and {}", face.value(), cells[0].value(), cells[1].value()));
       else if (geometry_[face].area > smallest)
         stored_angle(ConnectionId(i), face);
     }
     for (std::size_t f = 0; f < uses.size(); ++f) {
       const bool inner = mesh_.faces.cells[FaceId(f)][1].is_valid();
       if (inner && uses[f] == 0) add("inner face without a connection", fmt::format("face {}", f), "");
-      if (uses[f] > 1) add("face with several connections", fmt::format("face {}", f), fmt::format("{} of them", uses[f]));
+      if (uses[f] > 1)
+        add("face with several connections", fmt::format("face {}", f), fmt::format("{} of them", uses[f]));
     }
   }
 
   void stored_angle(ConnectionId id, FaceId face) {
     const auto& pair = mesh_.faces.cells[face];
-    const double angle = non_orthogonality(geometry_[face].area_vector, mesh_.cells.center[pair[1]] - mesh_.cells.center[pair[0]]);
+    const double angle =
+        non_orthogonality(geometry_[face].area_vector, mesh_.cells.center[pair[1]] - mesh_.cells.center[pair[0]]);
     const double stored = mesh_.connections.non_orthogonality[id];
     if (!(std::abs(angle - stored) <= options_.angle_limit))
       add("stored non-orthogonality differs from the face's", fmt::format("connection {}", id.value()),
@@ -222,7 +237,8 @@ class MeshCheck {
       if (well.connections.empty()) add("well without connections", entity, "");
       for (const WellConnection& connection : well.connections)
         if (!std::isfinite(connection.well_index) || connection.well_index <= 0.0)
-          add("well index not positive and finite", entity, fmt::format("{:.6g} m3 in cell {}", connection.well_index, connection.cell.value()));
+          add("well index not positive and finite", entity,
+              fmt::format("{:.6g} m3 in cell {}", connection.well_index, connection.cell.value()));
     }
   }
 
@@ -233,7 +249,8 @@ class MeshCheck {
       double sum = 0.0;
       for (auto i = map.start[s]; i < map.start[s + 1]; ++i) sum += map.fraction[static_cast<std::size_t>(i)];
       if (!(std::abs(sum - 1.0) <= options_.transfer_limit))
-        add("fractions of a source cell do not add up to 1", fmt::format("source cell {}", s), fmt::format("{:.12g}", sum));
+        add("fractions of a source cell do not add up to 1", fmt::format("source cell {}", s),
+            fmt::format("{:.12g}", sum));
     }
   }
 
@@ -241,10 +258,10 @@ class MeshCheck {
   const MeshCheckOptions& options_;
   CellFaces cell_faces_;
   IdVector<FaceId, PolygonGeometry> geometry_;
-  std::vector<double> volumes_;        ///< of each cell, from its faces, m3
+  std::vector<double> volumes_;  ///< of each cell, from its faces, m3
   std::vector<Violation> violations_;
-  std::vector<SurfaceEdge> edges_;     ///< of the cell at hand
-  std::vector<Vec3> points_;           ///< of the face at hand
+  std::vector<SurfaceEdge> edges_;  ///< of the cell at hand
+  std::vector<Vec3> points_;        ///< of the face at hand
 };
 
 }  // namespace

@@ -14,17 +14,17 @@
 namespace wellknit {
 
 struct Violation {
-  std::string check;    ///< such as "cell not watertight"
-  std::string entity;   ///< such as "cell 17"
-  std::string detail;   ///< figures
+  std::string check;   ///< such as "cell not watertight"
+  std::string entity;  ///< such as "cell 17"
+  std::string detail;  ///< figures
 };
 
 struct MeshCheckOptions {
-  double open_surface_limit = 1e-9;   ///< |sum of area vectors| over the sum of areas, per cell
-  double volume_limit = 1e-6;         ///< relative difference of a made cell's stored volume from its faces' fan
-  double host_volume_limit = 0.05;    ///< the same for host cells, whose twisted faces may be cut at a fault
-  double angle_limit = 1e-3;          ///< degrees, stored non-orthogonality against the faces'
-  double transfer_limit = 1e-9;       ///< of the sum of a source cell's fractions from 1
+  double open_surface_limit = 1e-9;  ///< |sum of area vectors| over the sum of areas, per cell
+  double volume_limit = 1e-6;        ///< relative difference of a made cell's stored volume from its faces' fan
+  double host_volume_limit = 0.05;   ///< the same for host cells, whose twisted faces may be cut at a fault
+  double angle_limit = 1e-3;         ///< degrees, stored non-orthogonality against the faces'
+  double transfer_limit = 1e-9;      ///< of the sum of a source cell's fractions from 1
 };
 
 /// The one check that a strongly deformed grid may not satisfy although the mesh can be computed with.
@@ -33,10 +33,10 @@ inline constexpr std::string_view not_seen_from_centre = "made cell not seen fro
 /// Array lengths that fit each other, offsets that rise, indices in range: what every loop over the mesh relies on.
 std::vector<Violation> check_structure(const Mesh& mesh);
 
-/// Faces with 3 or more distinct vertices and valid cells; watertight, closed cells of positive volume; finite values; made cells
-/// seen whole from their centres; one connection for each inner face; transmissibilities finite and not negative; well cells valid.
-/// When the structure is not right, its violations alone: nothing else could be computed. Linear in the size of the mesh,
-/// but for sorting.
+/// Faces with 3 or more distinct vertices and valid cells; watertight, closed cells of positive volume; finite values;
+/// made cells seen whole from their centres; one connection for each inner face; transmissibilities finite and not
+/// negative; well cells valid. When the structure is not right, its violations alone: nothing else could be computed.
+/// Linear in the size of the mesh, but for sorting.
 std::vector<Violation> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
 
 }  // namespace wellknit

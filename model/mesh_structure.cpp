@@ -32,13 +32,15 @@ class StructureCheck {
   }
 
   void expect_length(const std::string& array, std::size_t found, std::size_t expected) {
-    if (found != expected) add("array of a wrong length", array, fmt::format("{} values where {} are expected", found, expected));
+    if (found != expected)
+      add("array of a wrong length", array, fmt::format("{} values where {} are expected", found, expected));
   }
 
   /// `index` must lie in [lowest, count).
   void expect_index(std::int64_t index, std::int64_t lowest, std::size_t count, const char* array, std::size_t entry) {
     if (index < lowest || index >= static_cast<std::int64_t>(count))
-      add("index out of range", fmt::format("{}[{}]", array, entry), fmt::format("{} is not in {} to {}", index, lowest, static_cast<std::int64_t>(count) - 1));
+      add("index out of range", fmt::format("{}[{}]", array, entry),
+          fmt::format("{} is not in {} to {}", index, lowest, static_cast<std::int64_t>(count) - 1));
   }
 
   /// Offsets from 0 to `size` that never fall; `count` of them plus one.
@@ -47,9 +49,11 @@ class StructureCheck {
     if (start.empty()) return;
     if (start.front() != 0) add("offsets do not start at 0", array, fmt::format("the first is {}", start.front()));
     if (start.back() != static_cast<std::int64_t>(size))
-      add("offsets do not end at the size of their array", array, fmt::format("the last is {}, the size {}", start.back(), size));
+      add("offsets do not end at the size of their array", array,
+          fmt::format("the last is {}, the size {}", start.back(), size));
     for (std::size_t i = 0; i + 1 < start.size(); ++i)
-      if (start[i + 1] < start[i]) add("offsets fall", fmt::format("{}[{}]", array, i + 1), fmt::format("{} after {}", start[i + 1], start[i]));
+      if (start[i + 1] < start[i])
+        add("offsets fall", fmt::format("{}[{}]", array, i + 1), fmt::format("{} after {}", start[i + 1], start[i]));
   }
 
   void lengths() {
@@ -58,8 +62,11 @@ class StructureCheck {
       if (path.starts_with("connections/")) expect_length(std::string(path), values.size(), mesh_.connections.size());
     });
     for (const auto& [keyword, property] : mesh_.cells.properties)
-      std::visit([&, &key = keyword](const auto& values) { expect_length("cells/properties/" + key, values.size(), mesh_.cells.size()); },
-                 property);
+      std::visit(
+          [&, &key = keyword](const auto& values) {
+            expect_length("cells/properties/" + key, values.size(), mesh_.cells.size());
+          },
+          property);
   }
 
   void faces() {
@@ -79,7 +86,9 @@ class StructureCheck {
     const auto [nx, ny, nz] = mesh_.source_dimensions;
     const auto source_cells = static_cast<std::size_t>(std::max<std::int64_t>(0, nx * ny * nz));
     for (std::size_t c = 0; c < cells.kind.size(); ++c)
-      if (cells.kind[CellId(c)] > CellKind::radial) add("kind out of range", fmt::format("cells/kind[{}]", c), fmt::format("{}", static_cast<int>(cells.kind[CellId(c)])));
+      if (cells.kind[CellId(c)] > CellKind::radial)
+        add("kind out of range", fmt::format("cells/kind[{}]", c),
+            fmt::format("{}", static_cast<int>(cells.kind[CellId(c)])));
     for (std::size_t c = 0; c < cells.source_cell.size(); ++c)
       expect_index(cells.source_cell[CellId(c)].value(), -1, source_cells, "cells/source_cell", c);
     for (std::size_t c = 0; c < cells.well.size(); ++c)
@@ -95,12 +104,14 @@ class StructureCheck {
       expect_index(connections.face[ConnectionId(i)].value(), -1, mesh_.faces.size(), "connections/face", i);
     for (std::size_t i = 0; i < connections.kind.size(); ++i)
       if (connections.kind[ConnectionId(i)] > ConnectionKind::pinch_out)
-        add("kind out of range", fmt::format("connections/kind[{}]", i), fmt::format("{}", static_cast<int>(connections.kind[ConnectionId(i)])));
+        add("kind out of range", fmt::format("connections/kind[{}]", i),
+            fmt::format("{}", static_cast<int>(connections.kind[ConnectionId(i)])));
   }
 
   void wells() {
     for (const MeshWell& well : mesh_.wells) {
-      expect_length(fmt::format("measured depths of well {}", well.name), well.trajectory.measured_depth.size(), well.trajectory.points.size());
+      expect_length(fmt::format("measured depths of well {}", well.name), well.trajectory.measured_depth.size(),
+                    well.trajectory.points.size());
       const std::string array = fmt::format("cells of well {}", well.name);
       for (std::size_t i = 0; i < well.connections.size(); ++i)
         expect_index(well.connections[i].cell.value(), 0, mesh_.cells.size(), array.c_str(), i);
@@ -111,7 +122,8 @@ class StructureCheck {
     const Transfer& transfer = mesh_.transfer;
     if (transfer.start.empty() && transfer.cell.empty() && transfer.fraction.empty()) return;
     const auto [nx, ny, nz] = mesh_.source_dimensions;
-    expect_offsets(transfer.start, static_cast<std::size_t>(std::max<std::int64_t>(0, nx * ny * nz)), transfer.cell.size(), "transfer/start");
+    expect_offsets(transfer.start, static_cast<std::size_t>(std::max<std::int64_t>(0, nx * ny * nz)),
+                   transfer.cell.size(), "transfer/start");
     expect_length("transfer/fraction", transfer.fraction.size(), transfer.cell.size());
     for (std::size_t i = 0; i < transfer.cell.size(); ++i)
       expect_index(transfer.cell[i].value(), 0, mesh_.cells.size(), "transfer/cell", i);

@@ -18,7 +18,8 @@ CellFaces faces_of_cells(const Mesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto& pair = mesh.faces.cells[FaceId(f)];
     for (std::size_t side = 0; side < 2; ++side)
-      if (pair[side].is_valid()) out.faces[static_cast<std::size_t>(next[pair[side].index()]++)] = {FaceId(f), side == 0};
+      if (pair[side].is_valid())
+        out.faces[static_cast<std::size_t>(next[pair[side].index()]++)] = {FaceId(f), side == 0};
   }
   return out;
 }
@@ -32,7 +33,8 @@ std::span<const Vec3> face_points(const Mesh& mesh, FaceId face, std::vector<Vec
 IdVector<FaceId, PolygonGeometry> all_face_geometries(const Mesh& mesh) {
   IdVector<FaceId, PolygonGeometry> out(mesh.faces.size());
   std::vector<Vec3> buffer;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) out[FaceId(f)] = polygon_geometry(face_points(mesh, FaceId(f), buffer));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    out[FaceId(f)] = polygon_geometry(face_points(mesh, FaceId(f), buffer));
   return out;
 }
 

@@ -15,7 +15,8 @@ namespace wellknit {
 
 namespace {
 
-/// Value at the fraction q of the sorted sample, linear between neighbours (the usual definition of numerical libraries).
+/// Value at the fraction q of the sorted sample, linear between neighbours (the usual definition of numerical
+/// libraries).
 double quantile(std::vector<double>& sample, double q) {
   if (sample.empty()) return 0.0;
   const double place = q * static_cast<double>(sample.size() - 1);
@@ -39,7 +40,8 @@ struct Sample {
     Distribution out;
     if (values.empty()) return out;
     out.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    out.area_mean = std::inner_product(values.begin(), values.end(), areas.begin(), 0.0) / std::accumulate(areas.begin(), areas.end(), 0.0);
+    out.area_mean = std::inner_product(values.begin(), values.end(), areas.begin(), 0.0) /
+                    std::accumulate(areas.begin(), areas.end(), 0.0);
     out.max = *std::max_element(values.begin(), values.end());
     out.p99 = quantile(values, 0.99);  // last: it reorders the values
     return out;
@@ -53,9 +55,10 @@ double extent_along(std::span<const Vec3> loop, const Vec3& centroid, const Vec3
   return extent;
 }
 
-/// checkMesh's skewness: how far the line of centres crosses the face's plane from its centroid. `share` of the line's length is
-/// the least extent that counts: 0.2 between cells, 0.4 of the distance to the plane on the boundary.
-double skewness(std::span<const Vec3> loop, const PolygonGeometry& face, const Vec3& from, const Vec3& line, double share) {
+/// checkMesh's skewness: how far the line of centres crosses the face's plane from its centroid. `share` of the line's
+/// length is the least extent that counts: 0.2 between cells, 0.4 of the distance to the plane on the boundary.
+double skewness(std::span<const Vec3> loop, const PolygonGeometry& face, const Vec3& from, const Vec3& line,
+                double share) {
   const Vec3 to_face = face.centroid - from;
   const double along = face.area_vector.dot(line);
   if (along == 0.0) return 0.0;  // a line in the face's plane: counted among the non-orthogonal ones
@@ -127,7 +130,8 @@ class QualityPass {
   void inner_face(std::span<const Vec3> loop, const PolygonGeometry& face, CellId first, CellId second) {
     const double volume_a = mesh_.cells.volume[first];
     const double volume_b = mesh_.cells.volume[second];
-    report_.min_volume_ratio = std::min(report_.min_volume_ratio, std::min(volume_a, volume_b) / std::max(volume_a, volume_b));
+    report_.min_volume_ratio =
+        std::min(report_.min_volume_ratio, std::min(volume_a, volume_b) / std::max(volume_a, volume_b));
     if (face.area <= smallest_area_) return;
 
     const Vec3& a = mesh_.cells.center[first];
@@ -157,7 +161,8 @@ class QualityPass {
       if (!face.is_valid() || geometry_[face].area <= smallest_area_) continue;
       const auto& [a, b] = mesh_.connections.cells[ConnectionId(i)];
       const FacePair pair = face_pair(mesh_.cells.kind[a], mesh_.cells.kind[b]);
-      k_angles[static_cast<std::size_t>(pair)].add(mesh_.connections.k_non_orthogonality[ConnectionId(i)], geometry_[face].area);
+      k_angles[static_cast<std::size_t>(pair)].add(mesh_.connections.k_non_orthogonality[ConnectionId(i)],
+                                                   geometry_[face].area);
     }
     for (std::size_t p = 0; p < face_pair_count; ++p) {
       PairQuality& pair = report_.pairs[p];
@@ -184,7 +189,8 @@ class QualityPass {
       flux += sign * face.area_vector;
       projected += face.area_vector.cwiseAbs();
       area += face.area;
-      seen = seen && sign * fan_volume6(face_points(mesh_, side.face, points_), face.mean, mesh_.cells.center[id]) > 0.0;
+      seen =
+          seen && sign * fan_volume6(face_points(mesh_, side.face, points_), face.mean, mesh_.cells.center[id]) > 0.0;
     }
     const double openness = area > 0.0 ? flux.norm() / area : 0.0;
     const double volume = mesh_.cells.volume[id];
@@ -194,7 +200,9 @@ class QualityPass {
     report_.max_aspect_ratio = std::max(report_.max_aspect_ratio, aspect);
     if (openness > quality_limit::openness) ++report_.cells_above_openness_1e6;
     if (aspect > quality_limit::aspect_ratio) ++report_.cells_above_aspect_ratio_1000;
-    if (!seen) ++(mesh_.cells.kind[id] >= CellKind::transition ? report_.made_cells_not_seen_from_centre : report_.host_cells_not_seen_from_centre);
+    if (!seen)
+      ++(mesh_.cells.kind[id] >= CellKind::transition ? report_.made_cells_not_seen_from_centre
+                                                      : report_.host_cells_not_seen_from_centre);
   }
 
   void transmissibilities() {
@@ -234,8 +242,8 @@ void add_connections(const Mesh& mesh, CellQuality& out) {
 }  // namespace
 
 std::string_view name_of(FacePair pair) {
-  static constexpr std::array<std::string_view, face_pair_count> names{"transition", "transition_host", "transition_radial",
-                                                                       "radial",     "host",            "radial_host"};
+  static constexpr std::array<std::string_view, face_pair_count> names{
+      "transition", "transition_host", "transition_radial", "radial", "host", "radial_host"};
   return names[static_cast<std::size_t>(pair)];
 }
 
@@ -267,7 +275,8 @@ QualityReport quality(const Mesh& mesh) { return QualityPass(mesh).run(); }
 CellQuality cell_quality(const Mesh& mesh) {
   const std::size_t n = mesh.cells.size();
   CellQuality out;
-  for (auto* values : {&out.max_non_orthogonality, &out.max_k_non_orthogonality, &out.max_planarity, &out.min_transmissibility, &out.centring})
+  for (auto* values : {&out.max_non_orthogonality, &out.max_k_non_orthogonality, &out.max_planarity,
+                       &out.min_transmissibility, &out.centring})
     values->resize(n, 0.0);
   add_connections(mesh, out);
 
@@ -282,7 +291,8 @@ CellQuality cell_quality(const Mesh& mesh) {
       const double distance = face.area_vector.dot(face.centroid - mesh.cells.center[cell]) / face.area;
       nearest = std::min(nearest, side.outward ? distance : -distance);
     }
-    if (std::isfinite(nearest) && mesh.cells.volume[cell] > 0.0) out.centring[cell] = nearest / std::cbrt(mesh.cells.volume[cell]);
+    if (std::isfinite(nearest) && mesh.cells.volume[cell] > 0.0)
+      out.centring[cell] = nearest / std::cbrt(mesh.cells.volume[cell]);
   }
   return out;
 }

@@ -3,7 +3,8 @@
 
 /// Finite-volume quality of a mesh: the figures that `wellknit check` and the summary of `build` print.
 ///
-/// Where OpenFOAM's checkMesh has a measure, its definition and its limit are taken, with the points that carry the pressure
+/// Where OpenFOAM's checkMesh has a measure, its definition and its limit are taken, with the points that carry the
+/// pressure
 /// (`Cells::center`) in the place of the cells' centroids, since it is they that the fluxes are computed between.
 /// What each figure means: docs/commands/check.md.
 #pragma once
@@ -46,7 +47,7 @@ struct PairQuality {
   std::int64_t faces = 0;
   Distribution non_orthogonality;    ///< degrees between the face normal and the line of centres
   Distribution k_non_orthogonality;  ///< degrees, as the connections store it
-  Distribution planarity;            ///< largest distance of a vertex from the mean plane over the square root of the area
+  Distribution planarity;  ///< largest distance of a vertex from the mean plane over the square root of the area
 };
 
 struct QualityReport {
@@ -58,9 +59,9 @@ struct QualityReport {
 
   double min_volume = 0.0;  ///< m3
   double max_volume = 0.0;
-  double min_edge = 0.0;    ///< m
-  double min_face_area = 0.0;             ///< m2
-  double max_skewness = 0.0;              ///< inner faces
+  double min_edge = 0.0;       ///< m
+  double min_face_area = 0.0;  ///< m2
+  double max_skewness = 0.0;   ///< inner faces
   double max_boundary_skewness = 0.0;
   double min_interpolation_weight = 0.5;  ///< 0.5 is the best
   double min_volume_ratio = 1.0;          ///< of two neighbours, the smaller over the larger
@@ -94,7 +95,7 @@ struct Figure {
 };
 std::vector<Figure> figures(const QualityReport& report);
 
-/// A line of a limits file: `name = value`. A name that begins with "min" or ends in "_min" bounds from below, others from above.
+/// A line of a limits file: `name = value`. A name that begins with "min_" bounds from below, others from above.
 struct Limit {
   std::string name;
   double value = 0.0;
@@ -105,8 +106,8 @@ struct PassedLimit {
   double value = 0.0;  ///< of the mesh
 };
 
-/// Reads a TOML file of `name = number` lines. Throws ParseError: no such file, not TOML, a value that is not a number, or
-/// a name that no figure has.
+/// Reads a TOML file of `name = number` lines. Throws ParseError: no such file, not TOML, a value that is not a number,
+/// or a name that no figure has.
 std::vector<Limit> read_limits(const std::string& path);
 std::vector<PassedLimit> passed_limits(const QualityReport& report, const std::vector<Limit>& limits);
 
@@ -116,7 +117,8 @@ struct CellQuality {
   IdVector<CellId, double> max_k_non_orthogonality;  ///< degrees; 0
   IdVector<CellId, double> max_planarity;            ///< 0
   IdVector<CellId, double> min_transmissibility;     ///< m3; 0
-  /// Smallest distance of the centre from a face over the cube root of the volume; negative: outside of a face. 0.5 in a cube.
+  /// Smallest distance of the centre from a face over the cube root of the volume; negative: outside of a face. 0.5 in
+  /// a cube.
   IdVector<CellId, double> centring;
 };
 CellQuality cell_quality(const Mesh& mesh);

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <toml++/toml.h>
 
 #include "model/errors.h"
 #include "model/quality.h"
@@ -17,16 +17,18 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kind_names{"host", "refined", "transition", "radial"};
 
-void add_distribution(std::vector<Figure>& out, const std::string& name, const std::string& unit, const Distribution& values) {
+void add_distribution(std::vector<Figure>& out, const std::string& name, const std::string& unit,
+                      const Distribution& values) {
   out.push_back({name + "_mean" + unit, values.mean});
   out.push_back({name + "_area_mean" + unit, values.area_mean});
   out.push_back({name + "_p99" + unit, values.p99});
   out.push_back({name + "_max" + unit, values.max});
 }
 
-bool bounds_from_below(std::string_view name) { return name.starts_with("min_") || name.ends_with("_min"); }
+bool bounds_from_below(std::string_view name) { return name.starts_with("min_"); }
 
-[[noreturn]] void bad_limit(const std::string& path, const toml::source_region& where, const std::string& name, ParseError::What what) {
+[[noreturn]] void bad_limit(const std::string& path, const toml::source_region& where, const std::string& name,
+                            ParseError::What what) {
   throw ParseError({path, static_cast<std::int64_t>(where.begin.line), name}, std::move(what));
 }
 
@@ -45,12 +47,15 @@ toml::table parse_limits(const std::string& path) {
 
 std::vector<Figure> figures(const QualityReport& report) {
   std::vector<Figure> out;
-  const auto count = [&](std::string name, std::int64_t value) { out.push_back({std::move(name), static_cast<double>(value)}); };
+  const auto count = [&](std::string name, std::int64_t value) {
+    out.push_back({std::move(name), static_cast<double>(value)});
+  };
   const auto figure = [&](std::string name, double value) { out.push_back({std::move(name), value}); };
   std::int64_t cells = 0;
   for (const std::int64_t n : report.cells_of_kind) cells += n;
   count("cells", cells);
-  for (std::size_t kind = 0; kind < kind_names.size(); ++kind) count(fmt::format("cells_{}", kind_names[kind]), report.cells_of_kind[kind]);
+  for (std::size_t kind = 0; kind < kind_names.size(); ++kind)
+    count(fmt::format("cells_{}", kind_names[kind]), report.cells_of_kind[kind]);
   count("faces", report.faces);
   count("vertices", report.vertices);
   count("connections", report.connections);
@@ -73,7 +78,7 @@ std::vector<Figure> figures(const QualityReport& report) {
   figure("max_boundary_skewness", report.max_boundary_skewness);
   count("faces_above_skewness_4", report.faces_above_skewness_4);
   figure("min_interpolation_weight", report.min_interpolation_weight);
-  count("faces_below_weight_0.05", report.faces_below_weight_005);
+  count("faces_below_weight_5_percent", report.faces_below_weight_005);
   figure("min_volume_ratio", report.min_volume_ratio);
   figure("min_flatness", report.min_flatness);
   figure("max_openness", report.max_openness);
@@ -94,29 +99,40 @@ std::string QualityReport::to_json() const {
 }
 
 std::string QualityReport::to_text() const {
-  std::string out = fmt::format("cells {} (host {}, refined {}, transition {}, radial {}), faces {}, vertices {}, connections {}\n",
-                                cells_of_kind[0] + cells_of_kind[1] + cells_of_kind[2] + cells_of_kind[3], cells_of_kind[0], cells_of_kind[1],
-                                cells_of_kind[2], cells_of_kind[3], faces, vertices, connections);
-  out += fmt::format("volumes {:.4g} to {:.4g} m3, smallest edge {:.3g} m, smallest face {:.3g} m2\n\n", min_volume, max_volume, min_edge, min_face_area);
-  out += fmt::format("{:<18} {:>9}  {:>35}  {:>11}  {:>17}\n", "inner faces", "count", "non-orthogonality, degrees", "K, degrees", "planarity");
-  out += fmt::format("{:<18} {:>9}  {:>8} {:>8} {:>8} {:>8}  {:>5} {:>5}  {:>8} {:>8}\n", "", "", "mean", "by area", "p99", "max", "mean", "max", "mean", "max");
+  std::string out =
+      fmt::format("cells {} (host {}, refined {}, transition {}, radial {}), faces {}, vertices {}, connections {}\n",
+                  cells_of_kind[0] + cells_of_kind[1] + cells_of_kind[2] + cells_of_kind[3], cells_of_kind[0],
+                  cells_of_kind[1], cells_of_kind[2], cells_of_kind[3], faces, vertices, connections);
+  out += fmt::format("volumes {:.4g} to {:.4g} m3, smallest edge {:.3g} m, smallest face {:.3g} m2\n\n", min_volume,
+                     max_volume, min_edge, min_face_area);
+  out += fmt::format("{:<18} {:>9}  {:>35}  {:>11}  {:>17}\n", "inner faces", "count", "non-orthogonality, degrees",
+                     "K, degrees", "planarity");
+  out += fmt::format("{:<18} {:>9}  {:>8} {:>8} {:>8} {:>8}  {:>5} {:>5}  {:>8} {:>8}\n", "", "", "mean", "by area",
+                     "p99", "max", "mean", "max", "mean", "max");
   for (std::size_t p = 0; p < face_pair_count; ++p) {
     const PairQuality& pair = pairs[p];
     if (pair.faces == 0) continue;
     const Distribution& angle = pair.non_orthogonality;
-    out += fmt::format("{:<18} {:>9}  {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}  {:>5.1f} {:>5.1f}  {:>8.2g} {:>8.2g}\n", name_of(FacePair(p)), pair.faces,
-                       angle.mean, angle.area_mean, angle.p99, angle.max, pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max,
-                       pair.planarity.mean, pair.planarity.max);
+    out += fmt::format("{:<18} {:>9}  {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}  {:>5.1f} {:>5.1f}  {:>8.2g} {:>8.2g}\n",
+                       name_of(FacePair(p)), pair.faces, angle.mean, angle.area_mean, angle.p99, angle.max,
+                       pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max, pair.planarity.mean,
+                       pair.planarity.max);
   }
-  out += fmt::format("\nfaces above {:g} degrees {}, made faces beyond {:g} degrees {}\n", quality_limit::severe_non_orthogonality,
-                     faces_above_70_degrees, quality_limit::reversed_face, made_faces_beyond_90_degrees);
-  out += fmt::format("skewness at most {:.3g} (boundary {:.3g}), above {:g}: {}\n", max_skewness, max_boundary_skewness, quality_limit::skewness, faces_above_skewness_4);
-  out += fmt::format("interpolation weight at least {:.3g}, below {:g}: {}\n", min_interpolation_weight, quality_limit::interpolation_weight, faces_below_weight_005);
+  out += fmt::format("\nfaces above {:g} degrees {}, made faces beyond {:g} degrees {}\n",
+                     quality_limit::severe_non_orthogonality, faces_above_70_degrees, quality_limit::reversed_face,
+                     made_faces_beyond_90_degrees);
+  out += fmt::format("skewness at most {:.3g} (boundary {:.3g}), above {:g}: {}\n", max_skewness, max_boundary_skewness,
+                     quality_limit::skewness, faces_above_skewness_4);
+  out += fmt::format("interpolation weight at least {:.3g}, below {:g}: {}\n", min_interpolation_weight,
+                     quality_limit::interpolation_weight, faces_below_weight_005);
   out += fmt::format("volume ratio at least {:.3g}, flatness at least {:.3g}\n", min_volume_ratio, min_flatness);
-  out += fmt::format("openness at most {:.2g}, above {:g}: {}\n", max_openness, quality_limit::openness, cells_above_openness_1e6);
-  out += fmt::format("aspect ratio at most {:.3g}, above {:g}: {}\n", max_aspect_ratio, quality_limit::aspect_ratio, cells_above_aspect_ratio_1000);
+  out += fmt::format("openness at most {:.2g}, above {:g}: {}\n", max_openness, quality_limit::openness,
+                     cells_above_openness_1e6);
+  out += fmt::format("aspect ratio at most {:.3g}, above {:g}: {}\n", max_aspect_ratio, quality_limit::aspect_ratio,
+                     cells_above_aspect_ratio_1000);
   out += fmt::format("transmissibilities negative {}, zero {}\n", negative_transmissibilities, zero_transmissibilities);
-  out += fmt::format("not seen from their centre: made cells {}, host cells {}\n", made_cells_not_seen_from_centre, host_cells_not_seen_from_centre);
+  out += fmt::format("not seen from their centre: made cells {}, host cells {}\n", made_cells_not_seen_from_centre,
+                     host_cells_not_seen_from_centre);
   return out;
 }
 
@@ -132,7 +148,8 @@ std::vector<Limit> read_limits(const std::string& path) {
     const std::string name(key.str());
     const auto is_name = [&](const Figure& figure) { return figure.name == name; };
     if (std::none_of(known.begin(), known.end(), is_name))
-      bad_limit(path, node.source(), name, {"the name of a quality figure", "an unknown name", "docs/commands/check.md lists the names; names with a dot need quotes"});
+      bad_limit(path, node.source(), name,
+                {"the name of a quality figure", "an unknown name", "docs/commands/check.md lists the names"});
     const std::optional<double> value = node.value<double>();
     if (!value) bad_limit(path, node.source(), name, {"a number", "something else", ""});
     out.push_back({name, *value});

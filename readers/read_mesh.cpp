@@ -31,7 +31,8 @@ std::string shape_text(std::span<const hsize_t> shape) { return fmt::format("[{}
 /// An open mesh file. Everything that is not as the schema says becomes a ParseError that names the object.
 class MeshFileReader {
  public:
-  explicit MeshFileReader(const std::string& path) : path_(path), file_(open(path)), file_size_(std::filesystem::file_size(path)) {}
+  explicit MeshFileReader(const std::string& path)
+      : path_(path), file_(open(path)), file_size_(std::filesystem::file_size(path)) {}
 
   [[noreturn]] void fail(const std::string& object, std::string expected, std::string found) const {
     throw ParseError({path_, 0, object}, {std::move(expected), std::move(found), advice});
@@ -51,7 +52,8 @@ class MeshFileReader {
     check_type(name, set, layout);
     const std::vector<hsize_t> shape = shape_of(name, set);
     if (shape.size() != (layout.columns == 1 ? 1U : 2U) || (layout.columns > 1 && shape[1] != layout.columns))
-      fail(name, layout.columns == 1 ? "a list" : fmt::format("rows of {} numbers", layout.columns), "shape " + shape_text(shape));
+      fail(name, layout.columns == 1 ? "a list" : fmt::format("rows of {} numbers", layout.columns),
+           "shape " + shape_text(shape));
     check_size(name, set, shape);
     values.resize(static_cast<std::size_t>(shape[0]));
     if (!values.empty() && H5Dread(set.get(), layout.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -76,7 +78,9 @@ class MeshFileReader {
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const std::vector<hsize_t> shape = shape_of(name, set);
     check_size(name, set, shape);
-    return read_strings(name, type, shape, [&](hid_t memory, void* data) { return H5Dread(set.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data); });
+    return read_strings(name, type, shape, [&](hid_t memory, void* data) {
+      return H5Dread(set.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
+    });
   }
 
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const {
@@ -88,7 +92,8 @@ class MeshFileReader {
     const Handle type(H5Aget_type(attribute.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
     const std::array<hsize_t, 1> shape{points_of(name, space)};
-    return read_strings(name, type, shape, [&](hid_t memory, void* data) { return H5Aread(attribute.get(), memory, data); });
+    return read_strings(name, type, shape,
+                        [&](hid_t memory, void* data) { return H5Aread(attribute.get(), memory, data); });
   }
 
   [[nodiscard]] std::string text_attribute(const std::string& object, const std::string& name) const {
@@ -107,7 +112,8 @@ class MeshFileReader {
     if (found != values.size()) fail(name, fmt::format("{} numbers", values.size()), fmt::format("{}", found));
     const hdf5::Element layout = hdf5::element(values.data());
     if (H5Tget_class(type.get()) != H5Tget_class(layout.memory_type)) fail(name, "numbers of its kind", "another type");
-    if (H5Aread(attribute.get(), layout.memory_type, values.data()) < 0) fail(name, "readable data", "data that HDF5 cannot read");
+    if (H5Aread(attribute.get(), layout.memory_type, values.data()) < 0)
+      fail(name, "readable data", "data that HDF5 cannot read");
   }
 
   [[nodiscard]] std::vector<std::string> links(const std::string& group) const {
@@ -116,7 +122,8 @@ class MeshFileReader {
     if (!opened.is_valid() || H5Gget_info(opened.get(), &info) < 0) fail(group, "a group", "none");
     std::vector<std::string> names;
     for (hsize_t i = 0; i < info.nlinks; ++i) {
-      const ssize_t length = H5Lget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
+      const ssize_t length =
+          H5Lget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
       if (length < 0) fail(group, "names of its members", "names that HDF5 cannot read; the file is damaged");
       std::string name(static_cast<std::size_t>(length) + 1, '\0');
       H5Lget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
@@ -129,11 +136,14 @@ class MeshFileReader {
  private:
   [[nodiscard]] static Handle open(const std::string& path) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw ParseError({path, 0, ""}, {"a mesh file", "no such file", "check the name"});
-    if (!std::filesystem::is_regular_file(path, error)) throw ParseError({path, 0, ""}, {"a mesh file", "something that is not a file", "check the name"});
+    if (!std::filesystem::exists(path, error))
+      throw ParseError({path, 0, ""}, {"a mesh file", "no such file", "check the name"});
+    if (!std::filesystem::is_regular_file(path, error))
+      throw ParseError({path, 0, ""}, {"a mesh file", "something that is not a file", "check the name"});
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file.is_valid())
-      throw ParseError({path, 0, ""}, {"a mesh file (HDF5)", "a file that HDF5 cannot open: another format, cut or not readable", advice});
+      throw ParseError({path, 0, ""}, {"a mesh file (HDF5)",
+                                       "a file that HDF5 cannot open: another format, cut or not readable", advice});
     return file;
   }
 
@@ -157,7 +167,8 @@ class MeshFileReader {
     const char* kind = wanted == H5T_FLOAT ? "floating-point numbers" : "integers";
     if (H5Tget_class(type.get()) != wanted) fail(name, kind, "another type");
     if (H5Tget_size(type.get()) > H5Tget_size(layout.memory_type))
-      fail(name, fmt::format("{} of at most {} bytes", kind, H5Tget_size(layout.memory_type)), fmt::format("{} bytes", H5Tget_size(type.get())));
+      fail(name, fmt::format("{} of at most {} bytes", kind, H5Tget_size(layout.memory_type)),
+           fmt::format("{} bytes", H5Tget_size(type.get())));
   }
 
   [[nodiscard]] std::vector<hsize_t> shape_of(const std::string& name, const Handle& set) const {
@@ -172,7 +183,8 @@ class MeshFileReader {
   [[nodiscard]] hsize_t points_of(const std::string& name, const Handle& space) const {
     const hssize_t count = H5Sget_simple_extent_npoints(space.get());
     // An attribute lies in its object's header or heap: it cannot have more elements than the file has bytes.
-    if (count < 0 || static_cast<std::uintmax_t>(count) > file_size_) fail(name, "a list that fits in the file", fmt::format("{} elements", count));
+    if (count < 0 || static_cast<std::uintmax_t>(count) > file_size_)
+      fail(name, "a list that fits in the file", fmt::format("{} elements", count));
     return static_cast<hsize_t>(count);
   }
 
@@ -181,28 +193,34 @@ class MeshFileReader {
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const Handle properties(H5Dget_create_plist(set.get()), H5Pclose);
     hsize_t room = H5Dget_storage_size(set.get());
-    if (room > file_size_) fail(name, "data inside the file", fmt::format("{} bytes in a file of {}", room, file_size_));
+    if (room > file_size_)
+      fail(name, "data inside the file", fmt::format("{} bytes in a file of {}", room, file_size_));
     if (H5Pget_layout(properties.get()) == H5D_CHUNKED) room *= largest_compression;
     hsize_t left = room / std::max<hsize_t>(1, H5Tget_size(type.get()));
     for (const hsize_t n : shape) {
       if (n == 0) return;
       left /= n;
     }
-    if (left == 0) fail(name, "as many values as its shape says", fmt::format("shape {} in {} bytes; the file is cut", shape_text(shape), room));
+    if (left == 0)
+      fail(name, "as many values as its shape says",
+           fmt::format("shape {} in {} bytes; the file is cut", shape_text(shape), room));
   }
 
   /// Strings of fixed or of variable length.
   template <class Read>
-  [[nodiscard]] std::vector<std::string> read_strings(const std::string& name, const Handle& type, std::span<const hsize_t> shape, Read read) const {
+  [[nodiscard]] std::vector<std::string> read_strings(const std::string& name, const Handle& type,
+                                                      std::span<const hsize_t> shape, Read read) const {
     hsize_t count = 1;
     for (const hsize_t n : shape) count *= n;
     if (H5Tget_class(type.get()) != H5T_STRING) fail(name, "strings", "another type");
     if (count == 0) return {};
-    return H5Tis_variable_str(type.get()) > 0 ? variable_strings(name, type, count, read) : fixed_strings(name, type, count, read);
+    return H5Tis_variable_str(type.get()) > 0 ? variable_strings(name, type, count, read)
+                                              : fixed_strings(name, type, count, read);
   }
 
   template <class Read>
-  [[nodiscard]] std::vector<std::string> variable_strings(const std::string& name, const Handle& type, hsize_t count, Read read) const {
+  [[nodiscard]] std::vector<std::string> variable_strings(const std::string& name, const Handle& type, hsize_t count,
+                                                          Read read) const {
     const Handle memory(H5Tcopy(type.get()), H5Tclose);
     std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
     const bool done = read(memory.get(), pointers.data()) >= 0;
@@ -216,11 +234,14 @@ class MeshFileReader {
   }
 
   template <class Read>
-  [[nodiscard]] std::vector<std::string> fixed_strings(const std::string& name, const Handle& type, hsize_t count, Read read) const {
+  [[nodiscard]] std::vector<std::string> fixed_strings(const std::string& name, const Handle& type, hsize_t count,
+                                                       Read read) const {
     const std::size_t length = H5Tget_size(type.get());
-    if (count * length > file_size_) fail(name, "strings that fit in the file", fmt::format("{} of {} bytes", count, length));
+    if (count * length > file_size_)
+      fail(name, "strings that fit in the file", fmt::format("{} of {} bytes", count, length));
     std::vector<char> bytes(static_cast<std::size_t>(count) * length);
-    if (read(type.get(), bytes.data()) < 0) fail(name, "readable strings", "strings that HDF5 cannot read; the file is damaged");
+    if (read(type.get(), bytes.data()) < 0)
+      fail(name, "readable strings", "strings that HDF5 cannot read; the file is damaged");
     std::vector<std::string> out;
     for (std::size_t i = 0; i < count; ++i) out.emplace_back(&bytes[i * length], ::strnlen(&bytes[i * length], length));
     return out;
@@ -232,7 +253,8 @@ class MeshFileReader {
 };
 
 void check_schema(const MeshFileReader& in) {
-  if (!in.has_attribute("/", "schema")) in.fail("schema", std::string("an HDF5 file with the schema ") + hdf5::schema_name, "an HDF5 file without one");
+  if (!in.has_attribute("/", "schema"))
+    in.fail("schema", std::string("an HDF5 file with the schema ") + hdf5::schema_name, "an HDF5 file without one");
   const std::string schema = in.text_attribute("/", "schema");
   if (schema != hdf5::schema_name) in.fail("schema", hdf5::schema_name, schema);
   const std::string version = in.text_attribute("/", "schema_version");
@@ -245,8 +267,10 @@ Provenance read_provenance(const MeshFileReader& in) {
   out.command = in.text_attribute("/", "command");
   out.config = in.text_attribute("/", "config");
   std::vector<std::string> sources = in.string_attribute("/", "sources");
-  if (sources.size() % 2 != 0) in.fail("sources", "pairs of a name and a SHA-256", fmt::format("{} strings", sources.size()));
-  for (std::size_t i = 0; i < sources.size(); i += 2) out.sources.push_back({std::move(sources[i]), std::move(sources[i + 1])});
+  if (sources.size() % 2 != 0)
+    in.fail("sources", "pairs of a name and a SHA-256", fmt::format("{} strings", sources.size()));
+  for (std::size_t i = 0; i < sources.size(); i += 2)
+    out.sources.push_back({std::move(sources[i]), std::move(sources[i + 1])});
   return out;
 }
 
@@ -262,7 +286,8 @@ void read_dimensions(const MeshFileReader& in, Mesh& mesh) {
   in.number_attribute("/", "source_dimensions", std::span<std::int64_t>(mesh.source_dimensions));
   constexpr std::int64_t largest = 1'000'000;  // of one direction; simulators end far below it
   for (const std::int64_t n : mesh.source_dimensions)
-    if (n < 0 || n > largest) in.fail("source_dimensions", fmt::format("numbers from 0 to {}", largest), fmt::format("{}", n));
+    if (n < 0 || n > largest)
+      in.fail("source_dimensions", fmt::format("numbers from 0 to {}", largest), fmt::format("{}", n));
 }
 
 void read_well_connections(const MeshFileReader& in, const std::string& group, MeshWell& well) {
@@ -273,13 +298,16 @@ void read_well_connections(const MeshFileReader& in, const std::string& group, M
   in.array(group + "/well_index", well_index);
   in.array(group + "/md", measured_depth);
   if (well_index.size() != cell.size() || measured_depth.size() != cell.size())
-    in.fail(group, fmt::format("{} values in each array", cell.size()), fmt::format("{} well indices and {} measured depths", well_index.size(), measured_depth.size()));
-  for (std::size_t i = 0; i < cell.size(); ++i) well.connections.push_back({cell[i], well_index[i], {measured_depth[i][0], measured_depth[i][1]}});
+    in.fail(group, fmt::format("{} values in each array", cell.size()),
+            fmt::format("{} well indices and {} measured depths", well_index.size(), measured_depth.size()));
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    well.connections.push_back({cell[i], well_index[i], {measured_depth[i][0], measured_depth[i][1]}});
 }
 
 MeshWell read_well(const MeshFileReader& in, const std::string& link) {
   const std::string group = "wells/" + link;
-  if (link.empty() || link.find('/') != std::string::npos || !in.has(group)) in.fail("wells_order", "names of groups in wells", link);
+  if (link.empty() || link.find('/') != std::string::npos || !in.has(group))
+    in.fail("wells_order", "names of groups in wells", link);
   MeshWell well;
   well.name = in.has_attribute(group, "name") ? in.text_attribute(group, "name") : link;
   in.number_attribute(group, "bore_radius", std::span(&well.bore_radius, 1));
@@ -318,12 +346,15 @@ MeshFile read_mesh(const std::string& path) {
   const auto read_array = [&](const char* name, auto& values) { in.array(name, values); };
   for_each_array(mesh, read_array);
   if (in.has("cells/properties"))
-    for (const std::string& keyword : in.links("cells/properties")) mesh.cells.properties[keyword] = in.property("cells/properties/" + keyword);
+    for (const std::string& keyword : in.links("cells/properties"))
+      mesh.cells.properties[keyword] = in.property("cells/properties/" + keyword);
   for (const std::string& link : in.strings("wells_order")) mesh.wells.push_back(read_well(in, link));
   if (in.has("transfer")) for_each_transfer_array(mesh, read_array);
 
   const std::vector<Violation> violations = check_structure(mesh);
-  if (!violations.empty()) in.fail(violations.front().entity, "arrays that fit each other", violations.front().check + " (" + violations.front().detail + ")");
+  if (!violations.empty())
+    in.fail(violations.front().entity, "arrays that fit each other",
+            violations.front().check + " (" + violations.front().detail + ")");
   return out;
 }
 

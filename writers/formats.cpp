@@ -38,7 +38,8 @@ constexpr std::array<std::string_view, 1> deck_extensions{".data"};
 constexpr std::array<WriterFormat, 3> table{{
     {"hdf5", hdf5_extensions, "the mesh file: everything, exact, SI", "hdf5.md", hdf5},
     {"vtu", vtu_extensions, "ParaView and VTK: hexahedra and polyhedra with cell and quality arrays", "vtu.md", vtu},
-    {"deck", deck_extensions, "OPM Flow: a complete deck on the connection list, wells on bottom-hole pressure", "deck.md", deck},
+    {"deck", deck_extensions, "OPM Flow: a complete deck on the connection list, wells on bottom-hole pressure",
+     "deck.md", deck},
 }};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -55,7 +56,8 @@ std::span<const WriterFormat> writer_formats() { return table; }
 
 const WriterFormat* find_writer(std::string_view name) {
   const std::string wanted = lower(name);
-  const auto found = std::find_if(table.begin(), table.end(), [&](const WriterFormat& format) { return format.name == wanted; });
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const WriterFormat& format) { return format.name == wanted; });
   return found == table.end() ? nullptr : &*found;
 }
 

@@ -16,12 +16,13 @@
 namespace wellknit {
 
 struct WriterFormat {
-  std::string_view name;                          ///< as in `--write name=PATH`
-  std::span<const std::string_view> extensions;   ///< lower case, with the dot; the first is the usual one
-  std::string_view description;                   ///< one line
-  std::string_view document;                      ///< page under docs/formats
+  std::string_view name;                         ///< as in `--write name=PATH`
+  std::span<const std::string_view> extensions;  ///< lower case, with the dot; the first is the usual one
+  std::string_view description;                  ///< one line
+  std::string_view document;                     ///< page under docs/formats
   /// Writes the mesh; returns what its user must know, one sentence each. Throws WriteError.
-  std::vector<std::string> (*write)(const Mesh& mesh, const Provenance& provenance, const std::string& path, Overwrite overwrite);
+  std::vector<std::string> (*write)(const Mesh& mesh, const Provenance& provenance, const std::string& path,
+                                    Overwrite overwrite);
 };
 
 std::span<const WriterFormat> writer_formats();

@@ -63,7 +63,8 @@ void check_output_path(const std::string& path, Overwrite overwrite) {
     if (overwrite == Overwrite::refuse) fail(path, "it exists already; pass --overwrite to replace it");
   }
   const fs::path folder = folder_of(target);
-  if (!fs::is_directory(folder, error)) fail(path, fmt::format("there is no folder {}; make it first", folder.string()));
+  if (!fs::is_directory(folder, error))
+    fail(path, fmt::format("there is no folder {}; make it first", folder.string()));
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     fail(path, fmt::format("the folder {} is not writable; choose another", folder.string()));
 }

@@ -12,11 +12,12 @@ namespace wellknit {
 
 enum class Overwrite : std::uint8_t { refuse, allow };
 
-/// Throws WriteError when `path` cannot become an output file: its folder is missing or not writable, something that is not a
-/// regular file stands there, or a file exists and `overwrite` refuses. For asking before a long run.
+/// Throws WriteError when `path` cannot become an output file: its folder is missing or not writable, something that is
+/// not a regular file stands there, or a file exists and `overwrite` refuses. For asking before a long run.
 void check_output_path(const std::string& path, Overwrite overwrite);
 
-/// A temporary file beside the target. Unless commit() was reached, the destructor removes it and the target is as it was.
+/// A temporary file beside the target. Unless commit() was reached, the destructor removes it and the target is as it
+/// was.
 class OutputFile {
  public:
   /// Creates the empty temporary. Throws WriteError as check_output_path() does.
@@ -30,7 +31,7 @@ class OutputFile {
   void commit();
 
  private:
-  std::string target_;     ///< a symbolic link is followed, so that it is its file that is replaced
+  std::string target_;  ///< a symbolic link is followed, so that it is its file that is replaced
   std::string temporary_;
   Overwrite overwrite_;
   bool committed_ = false;

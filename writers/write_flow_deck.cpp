@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// The form is N x 1 x 1 cells with a box each, no transmissibility from the boxes, and every connection as an NNC. Why each
-/// part is as it is, with what Flow does otherwise, stands in docs/formats/deck.md.
+/// The form is N x 1 x 1 cells with a box each, no transmissibility from the boxes, and every connection as an NNC. Why
+/// each part is as it is, with what Flow does otherwise, stands in docs/formats/deck.md.
 
 #include "writers/write_flow_deck.h"
 
@@ -22,14 +22,14 @@ namespace wellknit {
 
 namespace {
 
-constexpr double thinnest_box = 1e-4;        ///< m; Flow drops cells without thickness, and kept 1e-5 m when it was tried
-constexpr double longest_row = 1e6;          ///< m, of all boxes side by side: single precision still resolves 0.06 m there
-constexpr double bar_per_metre = 0.1;        ///< of depth: the initial pressure
-constexpr double least_pressure = 100.0;     ///< bar, for models near the surface
-constexpr double drawdown_share = 0.2;       ///< of the initial pressure, down for producers and up for injectors
-constexpr double flow_smallest_nnc = 1e-6;   ///< cP rm3 / (day bar); Flow sets smaller ones to zero
-constexpr double gravity_bar = 9.80665e-5;   ///< bar per metre for 1 kg/m3
-constexpr double oil_density = 850.0;        ///< kg/m3 at the surface
+constexpr double thinnest_box = 1e-4;  ///< m; Flow drops cells without thickness, and kept 1e-5 m when it was tried
+constexpr double longest_row = 1e6;    ///< m, of all boxes side by side: single precision still resolves 0.06 m there
+constexpr double bar_per_metre = 0.1;  ///< of depth: the initial pressure
+constexpr double least_pressure = 100.0;    ///< bar, for models near the surface
+constexpr double drawdown_share = 0.2;      ///< of the initial pressure, down for producers and up for injectors
+constexpr double flow_smallest_nnc = 1e-6;  ///< cP rm3 / (day bar); Flow sets smaller ones to zero
+constexpr double gravity_bar = 9.80665e-5;  ///< bar per metre for 1 kg/m3
+constexpr double oil_density = 850.0;       ///< kg/m3 at the surface
 constexpr double water_density = 1000.0;
 constexpr double oil_volume_factor = 1.1;    ///< at the initial pressure
 constexpr double default_bore_radius = 0.1;  ///< m, where the mesh has none
@@ -72,8 +72,8 @@ struct Nnc {
 
 struct NncList {
   std::vector<Nnc> records;
-  std::int64_t inactive = 0;  ///< connections left out because a cell has no pore volume
-  std::int64_t too_small = 0; ///< records that Flow sets to zero
+  std::int64_t inactive = 0;   ///< connections left out because a cell has no pore volume
+  std::int64_t too_small = 0;  ///< records that Flow sets to zero
 };
 
 NncList nnc_list(const Mesh& mesh, const Boxes& boxes) {
@@ -85,9 +85,12 @@ NncList nnc_list(const Mesh& mesh, const Boxes& boxes) {
       ++out.inactive;
       continue;
     }
-    sorted.push_back({std::min(a, b).value(), std::max(a, b).value(), mesh.connections.transmissibility[ConnectionId(i)] / transmissibility_unit});
+    sorted.push_back({std::min(a, b).value(), std::max(a, b).value(),
+                      mesh.connections.transmissibility[ConnectionId(i)] / transmissibility_unit});
   }
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Nnc& x, const Nnc& y) { return std::pair(x.first, x.second) < std::pair(y.first, y.second); });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Nnc& x, const Nnc& y) {
+    return std::pair(x.first, x.second) < std::pair(y.first, y.second);
+  });
   for (const Nnc& nnc : sorted) {
     if (!out.records.empty() && out.records.back().first == nnc.first && out.records.back().second == nnc.second)
       out.records.back().transmissibility += nnc.transmissibility;
@@ -95,23 +98,25 @@ NncList nnc_list(const Mesh& mesh, const Boxes& boxes) {
       out.records.push_back(nnc);
   }
   // Neighbours in the row are folded into TRANX, where no lower bound applies.
-  const auto is_lost = [](const Nnc& nnc) { return nnc.second != nnc.first + 1 && nnc.transmissibility < flow_smallest_nnc; };
+  const auto is_lost = [](const Nnc& nnc) {
+    return nnc.second != nnc.first + 1 && nnc.transmissibility < flow_smallest_nnc;
+  };
   out.too_small = std::count_if(out.records.begin(), out.records.end(), is_lost);
   return out;
 }
 
 /// A cell open to the well, all its perforations in one: a second COMPDAT record of a cell would replace the first.
 struct DeckConnection {
-  std::int64_t cell = 0;              ///< 0-based
-  double connection_factor = 0.0;     ///< cP rm3 / (day bar)
+  std::int64_t cell = 0;                ///< 0-based
+  double connection_factor = 0.0;       ///< cP rm3 / (day bar)
   double permeability_thickness = 0.0;  ///< mD m
 };
 
 struct DeckWell {
-  std::string name;        ///< as the deck has it
+  std::string name;  ///< as the deck has it
   std::string mesh_name;
   bool injector = false;
-  double diameter = 0.0;   ///< m
+  double diameter = 0.0;  ///< m
   double reference_depth = 0.0;
   std::vector<DeckConnection> connections;  ///< in order along the well
 };
@@ -125,8 +130,10 @@ std::vector<double> permeability_thicknesses(const Mesh& mesh, const MeshWell& w
   for (const WellConnection& c : well.connections) {
     const Vec3& k = mesh.cells.permeability[c.cell];
     const double length = std::abs(c.measured_depth.to - c.measured_depth.from);
-    const double kh = std::sqrt(std::max(0.0, k.x() * k.y())) * length / around[{c.measured_depth.from, c.measured_depth.to}];
-    // Without a length or a permeability: what the factor alone would say at an equivalent radius of e times the bore's.
+    const double kh =
+        std::sqrt(std::max(0.0, k.x() * k.y())) * length / around[{c.measured_depth.from, c.measured_depth.to}];
+    // Without a length or a permeability: what the factor alone would say at an equivalent radius of e times the
+    // bore's.
     const double from_factor = c.well_index / 6.283185307179586;
     out.push_back((kh > 0.0 ? kh : from_factor) / m2_per_millidarcy);
   }
@@ -159,10 +166,10 @@ DeckWell deck_well(const Mesh& mesh, const MeshWell& well, const Boxes& boxes, s
 
 /// What the template's equilibrium is made of, bar and metres.
 struct Initial {
-  double datum = 0.0;           ///< mean depth of the cells
-  double pressure = 0.0;        ///< there
-  double gradient = 0.0;        ///< bar per metre of the mobile fluid
-  double above_all = 0.0;       ///< a depth above every cell
+  double datum = 0.0;      ///< mean depth of the cells
+  double pressure = 0.0;   ///< there
+  double gradient = 0.0;   ///< bar per metre of the mobile fluid
+  double above_all = 0.0;  ///< a depth above every cell
   double below_all = 0.0;
 
   [[nodiscard]] double at(double depth) const { return pressure + gradient * (depth - datum); }
@@ -188,7 +195,12 @@ Initial initial_state(const Mesh& mesh, const Boxes& boxes, FlowFluids fluids) {
 class FlowDeck {
  public:
   FlowDeck(const Mesh& mesh, const FlowDeckOptions& options, std::ostream& out)
-      : mesh_(mesh), options_(options), out_(out), boxes_(boxes_of(mesh)), nnc_(nnc_list(mesh, boxes_)), initial_(initial_state(mesh, boxes_, options.fluids)) {
+      : mesh_(mesh),
+        options_(options),
+        out_(out),
+        boxes_(boxes_of(mesh)),
+        nnc_(nnc_list(mesh, boxes_)),
+        initial_(initial_state(mesh, boxes_, options.fluids)) {
     collect_wells();
     collect_notes();
   }
@@ -218,7 +230,8 @@ class FlowDeck {
     for (const MeshWell& well : mesh_.wells) {
       DeckWell made = deck_well(mesh_, well, boxes_, connections_left_out_);
       if (made.connections.empty()) {
-        notes_.push_back(fmt::format("well {} is not in the deck: it has no connection to a cell with pore volume", well.name));
+        notes_.push_back(
+            fmt::format("well {} is not in the deck: it has no connection to a cell with pore volume", well.name));
         continue;
       }
       names.push_back(well.name);
@@ -227,23 +240,34 @@ class FlowDeck {
     const std::vector<std::string> deck_names = deck_well_names(names);
     for (std::size_t i = 0; i < wells_.size(); ++i) {
       wells_[i].name = deck_names[i];
-      if (deck_names[i] != names[i]) notes_.push_back(fmt::format("well {} is called {} in the deck", names[i], deck_names[i]));
+      if (deck_names[i] != names[i])
+        notes_.push_back(fmt::format("well {} is called {} in the deck", names[i], deck_names[i]));
     }
   }
 
   void collect_notes() {
     const auto inactive = std::count(boxes_.active.begin(), boxes_.active.end(), false);
     if (inactive > 0)
-      notes_.push_back(fmt::format("{} cells without pore volume are inactive in the deck, with {} connections and {} perforations", inactive, nnc_.inactive, connections_left_out_));
+      notes_.push_back(
+          fmt::format("{} cells without pore volume are inactive in the deck, with {} connections and {} perforations",
+                      inactive, nnc_.inactive, connections_left_out_));
     if (nnc_.too_small > 0)
-      notes_.push_back(fmt::format("{} connections lie below {:g} cP rm3/(day bar): Flow sets them to zero", nnc_.too_small, flow_smallest_nnc));
-    if (boxes_.thickened > 0) notes_.push_back(fmt::format("{} cells thinner than {:g} m have a box of that thickness", boxes_.thickened, thinnest_box));
+      notes_.push_back(fmt::format("{} connections lie below {:g} cP rm3/(day bar): Flow sets them to zero",
+                                   nnc_.too_small, flow_smallest_nnc));
+    if (wells_.empty())
+      notes_.push_back(
+          "the deck has no wells: at rest, flow 2022.10 stops unless run with "
+          "--time-step-control=newtoniterationcount");
+    if (boxes_.thickened > 0)
+      notes_.push_back(
+          fmt::format("{} cells thinner than {:g} m have a box of that thickness", boxes_.thickened, thinnest_box));
   }
 
   void head() {
     write_deck_comment(out_, "The mesh as a connection list for OPM Flow. Cell n of the mesh file is (n+1, 1, 1).");
     write_deck_comment(out_, "The boxes carry depth, thickness and volume only; what connects is the NNC list.");
-    write_deck_comment(out_, "Fluids, initial pressure, well controls and times are a template: replace them by your own.");
+    write_deck_comment(out_,
+                       "Fluids, initial pressure, well controls and times are a template: replace them by your own.");
     write_deck_comment(out_, "Run with: flow --time-step-control=newtoniterationcount THIS.DATA");
     for (const std::string& note : notes_) write_deck_comment(out_, "Note: " + note);
   }
@@ -251,16 +275,19 @@ class FlowDeck {
   void runspec() {
     std::size_t most = 1;
     for (const DeckWell& well : wells_) most = std::max(most, well.connections.size());
-    print("\nRUNSPEC\nTITLE\n wellknit: {} cells, {} connections, {} wells\n", mesh_.cells.size(), nnc_.records.size(), wells_.size());
+    print("\nRUNSPEC\nTITLE\n wellknit: {} cells, {} connections, {} wells\n", mesh_.cells.size(), nnc_.records.size(),
+          wells_.size());
     print("DIMENS\n {} 1 1 /\n{}WATER\nMETRIC\nSTART\n 1 JAN 2026 /\n", mesh_.cells.size(), has_oil() ? "OIL\n" : "");
-    print("EQLDIMS\n 1 /\nTABDIMS\n 1 1 20 20 /\nWELLDIMS\n {} {} 1 {} /\nUNIFOUT\n", std::max<std::size_t>(1, wells_.size()), most, std::max<std::size_t>(1, wells_.size()));
+    print("EQLDIMS\n 1 /\nTABDIMS\n 1 1 20 20 /\nWELLDIMS\n {} {} 1 {} /\nUNIFOUT\n",
+          std::max<std::size_t>(1, wells_.size()), most, std::max<std::size_t>(1, wells_.size()));
   }
 
   void grid() {
     print("\nGRID\nINIT\nGRIDFILE\n 0 1 /\n");
     write_coord();
     write_zcorn();
-    if (std::count(boxes_.active.begin(), boxes_.active.end(), false) > 0) write_deck_array(out_, "ACTNUM", std::vector<double>(boxes_.active.begin(), boxes_.active.end()));
+    if (std::count(boxes_.active.begin(), boxes_.active.end(), false) > 0)
+      write_deck_array(out_, "ACTNUM", std::vector<double>(boxes_.active.begin(), boxes_.active.end()));
     write_deck_array(out_, "PORO", mesh_.cells.porosity.raw());
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::vector<double> millidarcy;
@@ -291,14 +318,16 @@ class FlowDeck {
     zcorn.reserve(8 * mesh_.cells.size());
     for (const double side : {-0.5, 0.5})
       for (int row = 0; row < 2; ++row)
-        for (std::size_t c = 0; c < mesh_.cells.size(); ++c) zcorn.insert(zcorn.end(), 2, mesh_.cells.depth[CellId(c)] + side * boxes_.thickness[c]);
+        for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
+          zcorn.insert(zcorn.end(), 2, mesh_.cells.depth[CellId(c)] + side * boxes_.thickness[c]);
     write_deck_array(out_, "ZCORN", zcorn);
   }
 
   void write_nnc() {
     if (nnc_.records.empty()) return;
     print("NNC\n");
-    for (const Nnc& nnc : nnc_.records) print(" {} 1 1 {} 1 1 {} /\n", nnc.first + 1, nnc.second + 1, nnc.transmissibility);
+    for (const Nnc& nnc : nnc_.records)
+      print(" {} 1 1 {} 1 1 {} /\n", nnc.first + 1, nnc.second + 1, nnc.transmissibility);
     print("/\n");
   }
 
@@ -312,7 +341,8 @@ class FlowDeck {
   void props() {
     print("\nPROPS\n");
     if (!has_oil()) {
-      print("PVTW\n {:.6g} 1 1E-9 0.5 0 /\nROCK\n {:.6g} 1E-9 /\nDENSITY\n {} {} 1 /\n", initial_.pressure, initial_.pressure, oil_density, water_density);
+      print("PVTW\n {:.6g} 1 1E-9 0.5 0 /\nROCK\n {:.6g} 1E-9 /\nDENSITY\n {} {} 1 /\n", initial_.pressure,
+            initial_.pressure, oil_density, water_density);
       return;
     }
     print("PVTW\n {:.6g} 1 4.5E-5 0.5 0 /\nPVDO\n", initial_.pressure);
@@ -334,7 +364,8 @@ class FlowDeck {
 
   void solution() {
     // One mobile fluid: the contact lies below everything (oil) or above (water).
-    print("\nSOLUTION\nEQUIL\n {} {} {} 0 /\nRPTRST\n BASIC=2 /\n", initial_.datum, initial_.pressure, has_oil() ? initial_.below_all : initial_.above_all);
+    print("\nSOLUTION\nEQUIL\n {} {} {} 0 /\nRPTRST\n BASIC=2 /\n", initial_.datum, initial_.pressure,
+          has_oil() ? initial_.below_all : initial_.above_all);
   }
 
   void summary() {
@@ -352,12 +383,14 @@ class FlowDeck {
   void write_wells() {
     print("WELSPECS\n");
     for (const DeckWell& well : wells_)
-      print(" '{}' 'G' {} 1 {} {} /\n", well.name, well.connections.front().cell + 1, well.reference_depth, well.injector || !has_oil() ? "WATER" : "OIL");
+      print(" '{}' 'G' {} 1 {} {} /\n", well.name, well.connections.front().cell + 1, well.reference_depth,
+            well.injector || !has_oil() ? "WATER" : "OIL");
     // The default order of a well's connections follows the boxes, which mean nothing.
     print("/\nCOMPORD\n '*' INPUT /\n/\nCOMPDAT\n");
     for (const DeckWell& well : wells_)
       for (const DeckConnection& c : well.connections)
-        print(" '{}' {} 1 1 1 OPEN 1* {} {} {} 0 1* Z /\n", well.name, c.cell + 1, c.connection_factor, well.diameter, c.permeability_thickness);
+        print(" '{}' {} 1 1 1 OPEN 1* {} {} {} 0 1* Z /\n", well.name, c.cell + 1, c.connection_factor, well.diameter,
+              c.permeability_thickness);
     print("/\n");
     write_controls(true);
     write_controls(false);
@@ -392,7 +425,8 @@ class FlowDeck {
 
 }  // namespace
 
-std::vector<std::string> write_flow_deck(const Mesh& mesh, const std::string& path, const FlowDeckOptions& options, Overwrite overwrite) {
+std::vector<std::string> write_flow_deck(const Mesh& mesh, const std::string& path, const FlowDeckOptions& options,
+                                         Overwrite overwrite) {
   if (mesh.cells.size() == 0) throw InvalidInput("the mesh has no cells: a deck needs at least one");
   OutputStream out(path, overwrite);
   std::vector<std::string> notes = FlowDeck(mesh, options, out.stream()).write();

@@ -24,9 +24,9 @@ struct FlowDeckOptions {
   FlowFluids fluids = FlowFluids::oil_and_water;
 };
 
-/// Writes beside the target and renames. Returns what a user of the deck must know, one sentence each: cells left out, connections
-/// that Flow will not see, wells renamed. Throws WriteError, and InvalidInput for a mesh
-/// without cells. The mesh's structure must be right (check_structure()).
+/// Writes beside the target and renames. Returns what a user of the deck must know, one sentence each: cells left out,
+/// connections that Flow will not see, wells renamed. Throws WriteError, and InvalidInput for a mesh without cells. The
+/// mesh's structure must be right (check_structure()).
 std::vector<std::string> write_flow_deck(const Mesh& mesh, const std::string& path, const FlowDeckOptions& options = {},
                                          Overwrite overwrite = Overwrite::refuse);
 

@@ -59,7 +59,8 @@ class MeshFileWriter {
   }
 
   void group(const std::string& path) {
-    const Handle made(H5Gcreate2(file_.get(), path.c_str(), H5P_DEFAULT, group_properties_.get(), H5P_DEFAULT), H5Gclose);
+    const Handle made(H5Gcreate2(file_.get(), path.c_str(), H5P_DEFAULT, group_properties_.get(), H5P_DEFAULT),
+                      H5Gclose);
     need(made.get(), path);
   }
 
@@ -68,7 +69,8 @@ class MeshFileWriter {
     const hdf5::Element layout = hdf5::element(values.data());
     const std::array<hsize_t, 2> shape{values.size(), layout.columns};
     const Handle set = dataset(path, layout.file_type, std::span(shape).first(layout.columns == 1 ? 1 : 2));
-    if (!values.empty()) need(H5Dwrite(set.get(), layout.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
+    if (!values.empty())
+      need(H5Dwrite(set.get(), layout.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
   }
 
   void strings(const std::string& path, const std::vector<std::string>& values) {
@@ -76,7 +78,8 @@ class MeshFileWriter {
     const Handle type = hdf5::string_type(padded.length);
     const std::array<hsize_t, 1> shape{values.size()};
     const Handle set = dataset(path, type.get(), shape);
-    if (!values.empty()) need(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.bytes.data()), path);
+    if (!values.empty())
+      need(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.bytes.data()), path);
   }
 
   void attribute(const std::string& object, const std::string& name, const std::string& value) {
@@ -96,7 +99,8 @@ class MeshFileWriter {
     attribute_data(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, shape, values.data());
   }
   /// Rows of `columns` strings.
-  void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values, hsize_t columns) {
+  void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values,
+                 hsize_t columns) {
     const PaddedStrings padded(values);
     const Handle type = hdf5::string_type(padded.length);
     const std::array<hsize_t, 2> shape{values.size() / columns, columns};
@@ -128,7 +132,9 @@ class MeshFileWriter {
 
   [[nodiscard]] Handle dataset(const std::string& path, hid_t type, std::span<const hsize_t> shape) const {
     const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
-    Handle set(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), H5P_DEFAULT, dataset_properties_.get(), H5P_DEFAULT), H5Dclose);
+    Handle set(
+        H5Dcreate2(file_.get(), path.c_str(), type, space.get(), H5P_DEFAULT, dataset_properties_.get(), H5P_DEFAULT),
+        H5Dclose);
     need(set.get(), path);
     return set;
   }
@@ -136,10 +142,11 @@ class MeshFileWriter {
   /// An empty shape makes a scalar.
   void attribute_data(const std::string& object, const std::string& name, hid_t file_type, hid_t memory_type,
                       std::span<const hsize_t> shape, const void* data) const {
-    const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
-                       H5Sclose);
-    const Handle made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT,
-                                        H5P_DEFAULT),
+    const Handle space(
+        shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+        H5Sclose);
+    const Handle made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
+                                        H5P_DEFAULT, H5P_DEFAULT),
                       H5Aclose);
     need(made.get(), name);
     if (H5Sget_simple_extent_npoints(space.get()) > 0) need(H5Awrite(made.get(), memory_type, data), name);

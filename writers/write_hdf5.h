@@ -14,6 +14,7 @@ namespace wellknit {
 
 /// Writes beside the target and renames, so that a failed run leaves nothing. Throws WriteError.
 /// An empty `mesh.transfer` leaves out the group `transfer`.
-void write_hdf5(const Mesh& mesh, const Provenance& provenance, const std::string& path, Overwrite overwrite = Overwrite::refuse);
+void write_hdf5(const Mesh& mesh, const Provenance& provenance, const std::string& path,
+                Overwrite overwrite = Overwrite::refuse);
 
 }  // namespace wellknit

@@ -36,9 +36,11 @@ class AppendedArrays {
   template <class T>
   std::string element(std::string_view name, const std::vector<T>& values, int components = 1) {
     std::string escaped;
-    for (const char c : name) escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-    const std::string xml = fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                                        vtk_type<T>(), escaped, components, block_.size());
+    for (const char c : name)
+      escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+    const std::string xml = fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
+        vtk_type<T>(), escaped, components, block_.size());
     const std::uint64_t bytes = values.size() * sizeof(T);
     append(&bytes, sizeof bytes);
     append(values.data(), bytes);
@@ -198,14 +200,18 @@ VtkCells vtk_cells(const Mesh& mesh) {
 std::string cell_data(AppendedArrays& arrays, const Mesh& mesh) {
   const Cells& cells = mesh.cells;
   std::string xml;
-  xml += arrays.element("kind", mapped(cells.kind.raw(), [](CellKind kind) { return static_cast<std::uint8_t>(kind); }));
+  xml +=
+      arrays.element("kind", mapped(cells.kind.raw(), [](CellKind kind) { return static_cast<std::uint8_t>(kind); }));
   xml += arrays.element("center", flat_points(cells.center.raw()), 3);
   xml += arrays.element("volume", cells.volume.raw());
   xml += arrays.element("depth", cells.depth.raw());
   xml += arrays.element("source_cell", mapped(cells.source_cell.raw(), [](HostCellId cell) { return cell.value(); }));
-  xml += arrays.element("well", mapped(cells.well.raw(), [](WellId well) { return static_cast<std::int32_t>(well.value()); }));
-  xml += arrays.element("radial_segment", mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.segment; }));
-  xml += arrays.element("radial_sector", mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.sector; }));
+  xml += arrays.element("well",
+                        mapped(cells.well.raw(), [](WellId well) { return static_cast<std::int32_t>(well.value()); }));
+  xml += arrays.element("radial_segment",
+                        mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.segment; }));
+  xml += arrays.element("radial_sector",
+                        mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.sector; }));
   xml += arrays.element("radial_ring", mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.ring; }));
   xml += arrays.element("pore_volume", cells.pore_volume.raw());
   xml += arrays.element("porosity", cells.porosity.raw());
@@ -225,7 +231,8 @@ std::string cell_data(AppendedArrays& arrays, const Mesh& mesh) {
 
 std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh) {
   const VtkCells cells = vtk_cells(mesh);
-  std::string xml = fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.vertices.size(), mesh.cells.size());
+  std::string xml =
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.vertices.size(), mesh.cells.size());
   xml += "<Points>\n" + arrays.element("Points", flat_points(mesh.vertices.raw()), 3) + "</Points>\n<Cells>\n";
   xml += arrays.element("connectivity", cells.connectivity);
   xml += arrays.element("offsets", cells.offsets);
@@ -244,9 +251,12 @@ void write_vtu(const Mesh& mesh, const std::string& path, Overwrite overwrite) {
   const std::string grid = grid_xml(arrays, mesh);
   const std::string_view order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   // Version 1.0 with 64-bit headers: what every VTK since 5.10 reads, polyhedra in their legacy arrays included.
-  out.stream() << fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n",
-                              order)
-               << "<UnstructuredGrid>\n" << grid << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  out.stream() << fmt::format(
+                      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+                      "header_type=\"UInt64\">\n",
+                      order)
+               << "<UnstructuredGrid>\n"
+               << grid << "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   out.stream().write(arrays.block().data(), static_cast<std::streamsize>(arrays.block().size()));
   out.stream() << "\n</AppendedData>\n</VTKFile>\n";
   out.commit();

@@ -22,7 +22,8 @@ struct Plan {
   std::vector<std::vector<std::size_t>> polygons;
 };
 
-/// Index of this point, made when no point is within 1 micrometre: the plans are in metres and their points metres apart.
+/// Index of this point, made when no point is within 1 micrometre: the plans are in metres and their points metres
+/// apart.
 std::size_t point_of(Plan& plan, double x, double y) {
   for (std::size_t i = 0; i < plan.points.size(); ++i)
     if (std::hypot(plan.points[i][0] - x, plan.points[i][1] - y) < 1e-6) return i;
@@ -41,16 +42,21 @@ Mesh extruded(const Plan& plan, const std::vector<double>& depths) {
   Mesh mesh;
   for (const double depth : depths)
     for (const auto& [x, y] : plan.points) mesh.vertices.push_back(Vec3(x, y, depth));
-  const auto vertex = [&](std::size_t level, std::size_t point) { return VertexId(level * plan.points.size() + point); };
+  const auto vertex = [&](std::size_t level, std::size_t point) {
+    return VertexId(level * plan.points.size() + point);
+  };
   const std::size_t layers = depths.size() - 1;
-  const auto cell = [&](std::size_t layer, std::size_t polygon) { return CellId(layer * plan.polygons.size() + polygon); };
+  const auto cell = [&](std::size_t layer, std::size_t polygon) {
+    return CellId(layer * plan.polygons.size() + polygon);
+  };
 
   for (std::size_t level = 0; level <= layers; ++level)
     for (std::size_t p = 0; p < plan.polygons.size(); ++p) {
       std::vector<VertexId> loop;
       for (const std::size_t point : plan.polygons[p]) loop.push_back(vertex(level, point));
       if (level == 0) std::reverse(loop.begin(), loop.end());  // out of the first layer is up
-      mesh.faces.add(loop, cell(level == 0 ? 0 : level - 1, p), level == 0 || level == layers ? no_cell : cell(level, p));
+      mesh.faces.add(loop, cell(level == 0 ? 0 : level - 1, p),
+                     level == 0 || level == layers ? no_cell : cell(level, p));
     }
 
   std::map<std::array<std::size_t, 2>, std::size_t> owner;  // directed edge to its polygon
@@ -63,7 +69,8 @@ Mesh extruded(const Plan& plan, const std::vector<double>& depths) {
     if (other != owner.end() && other->second < p) continue;
     for (std::size_t layer = 0; layer < layers; ++layer) {
       // x cross depth is -y: to the right of the edge, out of its polygon.
-      const std::array<VertexId, 4> loop{vertex(layer, a), vertex(layer, b), vertex(layer + 1, b), vertex(layer + 1, a)};
+      const std::array<VertexId, 4> loop{vertex(layer, a), vertex(layer, b), vertex(layer + 1, b),
+                                         vertex(layer + 1, a)};
       mesh.faces.add(loop, cell(layer, p), other == owner.end() ? no_cell : cell(layer, other->second));
     }
   }
@@ -79,13 +86,15 @@ void fill_cells(Mesh& mesh, std::size_t count) {
   std::vector<Vec3> buffer;
   for (std::size_t c = 0; c < count; ++c) {
     Vec3 middle = Vec3::Zero();  // any point inside
-    for (const CellFace& side : faces.of(CellId(c))) middle += geometry[side.face].mean / static_cast<double>(faces.of(CellId(c)).size());
+    for (const CellFace& side : faces.of(CellId(c)))
+      middle += geometry[side.face].mean / static_cast<double>(faces.of(CellId(c)).size());
     double volume = 0.0;
     Vec3 moment = Vec3::Zero();
     for (const CellFace& side : faces.of(CellId(c))) {
       const PolygonGeometry& face = geometry[side.face];
       // All faces are planar: a pyramid's centroid lies a quarter of the way from its base's centroid to its top.
-      const double pyramid = (side.outward ? 1.0 : -1.0) / 6.0 * fan_volume6(face_points(mesh, side.face, buffer), face.mean, middle);
+      const double pyramid =
+          (side.outward ? 1.0 : -1.0) / 6.0 * fan_volume6(face_points(mesh, side.face, buffer), face.mean, middle);
       volume += pyramid;
       moment += pyramid * (0.75 * face.centroid + 0.25 * middle);
     }
@@ -136,7 +145,8 @@ void fill_connections(Mesh& mesh) {
     out.normal.push_back(normal);
     out.half_distance.push_back({from_a.norm(), from_b.norm()});
     out.non_orthogonality.push_back(non_orthogonality(normal, mesh.cells.center[b] - mesh.cells.center[a]));
-    out.k_non_orthogonality.push_back(std::max(non_orthogonality(k_a.cwiseProduct(normal), from_a), non_orthogonality(k_b.cwiseProduct(-normal), from_b)));
+    out.k_non_orthogonality.push_back(std::max(non_orthogonality(k_a.cwiseProduct(normal), from_a),
+                                               non_orthogonality(k_b.cwiseProduct(-normal), from_b)));
     out.planarity.push_back(planarity(face_points(mesh, FaceId(f), buffer), face));
     out.kind.push_back(ConnectionKind::face);
     out.multiplier.push_back(1.0);
@@ -177,7 +187,8 @@ MeshWell vertical_well(const std::string& name, const Mesh& mesh, const std::vec
 
 void identity_transfer(Mesh& mesh) {
   const std::int64_t n = mesh.source_dimensions[0] * mesh.source_dimensions[1] * mesh.source_dimensions[2];
-  for (std::int64_t s = 0; s <= n; ++s) mesh.transfer.start.push_back(std::min(s, static_cast<std::int64_t>(mesh.cells.size())));
+  for (std::int64_t s = 0; s <= n; ++s)
+    mesh.transfer.start.push_back(std::min(s, static_cast<std::int64_t>(mesh.cells.size())));
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     mesh.transfer.cell.push_back(CellId(c));
     mesh.transfer.fraction.push_back(1.0);
@@ -192,7 +203,9 @@ constexpr int sectors = 8;
 
 double azimuth(int corner) { return (corner - 0.5) * 2.0 * std::numbers::pi / sectors; }
 
-std::array<double, 2> on_circle(double radius, int corner) { return {radius * std::cos(azimuth(corner)), radius * std::sin(azimuth(corner))}; }
+std::array<double, 2> on_circle(double radius, int corner) {
+  return {radius * std::cos(azimuth(corner)), radius * std::sin(azimuth(corner))};
+}
 
 /// Where the ray through a corner of the sectors leaves the square |x|, |y| <= half.
 std::array<double, 2> on_square(double half, int corner) {
@@ -209,10 +222,13 @@ Plan ring_plan() {
   constexpr std::array<double, 3> radii{0.5, 1.2, 3.0};
   for (std::size_t ring = 0; ring < 2; ++ring)
     for (int s = 0; s < sectors; ++s)
-      add_polygon(plan, {on_circle(radii[ring], s), on_circle(radii[ring + 1], s), on_circle(radii[ring + 1], s + 1), on_circle(radii[ring], s + 1)});
+      add_polygon(plan, {on_circle(radii[ring], s), on_circle(radii[ring + 1], s), on_circle(radii[ring + 1], s + 1),
+                         on_circle(radii[ring], s + 1)});
   for (int s = 0; s < sectors; ++s) {
     Corners polygon{on_circle(3.0, s), on_square(4.0, s)};
-    if (s % 2 == 1) polygon.push_back({std::copysign(4.0, std::cos(azimuth(s) + std::numbers::pi / sectors)), std::copysign(4.0, std::sin(azimuth(s) + std::numbers::pi / sectors))});
+    if (s % 2 == 1)
+      polygon.push_back({std::copysign(4.0, std::cos(azimuth(s) + std::numbers::pi / sectors)),
+                         std::copysign(4.0, std::sin(azimuth(s) + std::numbers::pi / sectors))});
     polygon.push_back(on_square(4.0, s + 1));
     polygon.push_back(on_circle(3.0, s + 1));
     add_polygon(plan, polygon);
@@ -297,10 +313,13 @@ Mesh ring_in_boxes() {
     mesh.cells.kind[cell] = radial ? CellKind::radial : place < 3 * sectors ? CellKind::transition : CellKind::host;
     // The source grid is 3 x 3 x 2; the cells of the middle column were replaced.
     const std::array<std::int64_t, 8> around{0, 1, 2, 5, 8, 7, 6, 3};
-    mesh.cells.source_cell[cell] = place < 24 ? HostCellId() : HostCellId(around[place - 24] + 9 * static_cast<std::int64_t>(c / in_layer));
+    mesh.cells.source_cell[cell] =
+        place < 24 ? HostCellId() : HostCellId(around[place - 24] + 9 * static_cast<std::int64_t>(c / in_layer));
     if (!radial) continue;
     mesh.cells.well[cell] = WellId(0);
-    mesh.cells.radial_index[cell] = {static_cast<std::int32_t>(c / in_layer), static_cast<std::int32_t>(place % sectors), static_cast<std::int32_t>(place / sectors)};
+    mesh.cells.radial_index[cell] = {static_cast<std::int32_t>(c / in_layer),
+                                     static_cast<std::int32_t>(place % sectors),
+                                     static_cast<std::int32_t>(place / sectors)};
   }
   fill_connections(mesh);
 
@@ -312,8 +331,10 @@ Mesh ring_in_boxes() {
   for (std::size_t layer = 0; layer < 2; ++layer)
     for (std::size_t s = 0; s < sectors; ++s) {
       const CellId cell(layer * in_layer + s);
-      // k L theta / ln(r_0 / r_w) with r_0 = 0.9 m, near enough to the radius of the mean pressure between 0.5 and 1.2 m.
-      const double index = mesh.cells.permeability[cell].x() * 5.0 * (2.0 * std::numbers::pi / sectors) / std::log(0.9 / 0.5);
+      // k L theta / ln(r_0 / r_w) with r_0 = 0.9 m, near enough to the radius of the mean pressure between 0.5 and 1.2
+      // m.
+      const double index =
+          mesh.cells.permeability[cell].x() * 5.0 * (2.0 * std::numbers::pi / sectors) / std::log(0.9 / 0.5);
       const double from = 100.0 + 5.0 * static_cast<double>(layer);
       producer.connections.push_back({cell, index, {from, from + 5.0}});
     }
@@ -328,7 +349,8 @@ Mesh twisted_box() {
   Plan plan;
   add_polygon(plan, rectangle(0, 0, 10, 10));
   Mesh mesh = extruded(plan, {1000.0, 1010.0, 1020.0});
-  for (std::size_t corner = 0; corner < 4; ++corner) mesh.vertices[VertexId(4 + corner)].z() += corner % 2 == 0 ? 0.5 : -0.5;
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    mesh.vertices[VertexId(4 + corner)].z() += corner % 2 == 0 ? 0.5 : -0.5;
   fill_cells(mesh, 2);
   mesh.cells.kind[CellId(1)] = CellKind::transition;
   mesh.cells.source_cell[CellId(1)] = HostCellId();
@@ -338,7 +360,9 @@ Mesh twisted_box() {
 }
 
 Provenance provenance() {
-  return {"wellknit 0.1.0", "wellknit build \"a case.DATA\" -o out.h5", "mapping = \"automatic\"\nthreads = 0\n",
+  return {"wellknit 0.1.0",
+          "wellknit build \"a case.DATA\" -o out.h5",
+          "mapping = \"automatic\"\nthreads = 0\n",
           {{"a case.DATA", std::string(64, 'a')}, {"include/größe.inc", std::string(64, '0')}}};
 }
 

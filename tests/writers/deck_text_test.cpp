@@ -16,7 +16,9 @@ std::string array_text(const std::vector<double>& values) {
   return out.str();
 }
 
-TEST(DeckText, WritesEqualNeighboursWithARepeatCount) { EXPECT_EQ(array_text({0.25, 0.25, 0.25, 0.5}), "PORO\n 3*0.25 0.5\n/\n"); }
+TEST(DeckText, WritesEqualNeighboursWithARepeatCount) {
+  EXPECT_EQ(array_text({0.25, 0.25, 0.25, 0.5}), "PORO\n 3*0.25 0.5\n/\n");
+}
 
 TEST(DeckText, WritesAnEmptyArray) { EXPECT_EQ(array_text({}), "PORO\n\n/\n"); }
 
@@ -53,14 +55,18 @@ TEST(DeckText, KeepsNamesThatFit) {
 }
 
 TEST(DeckText, ShortensLongNamesUniquely) {
-  EXPECT_EQ(deck_well_names({"PRODUCER-NORTH", "PRODUCER-SOUTH", "PRODUCER"}), (std::vector<std::string>{"PRODUC_2", "PRODUC_3", "PRODUCER"}));
+  EXPECT_EQ(deck_well_names({"PRODUCER-NORTH", "PRODUCER-SOUTH", "PRODUCER"}),
+            (std::vector<std::string>{"PRODUC_2", "PRODUC_3", "PRODUCER"}));
 }
 
 TEST(DeckText, ReplacesWhatANameCannotHold) {
-  EXPECT_EQ(deck_well_names({"A/B 1", "55_33-1", "", "'*'"}), (std::vector<std::string>{"A_B_1", "W55_33-1", "W", "W___"}));
+  EXPECT_EQ(deck_well_names({"A/B 1", "55_33-1", "", "'*'"}),
+            (std::vector<std::string>{"A_B_1", "W55_33-1", "W", "W___"}));
 }
 
-TEST(DeckText, TellsNamesApartThatDifferInCaseOnly) { EXPECT_EQ(deck_well_names({"p1", "P1"}), (std::vector<std::string>{"p1", "P1_2"})); }
+TEST(DeckText, TellsNamesApartThatDifferInCaseOnly) {
+  EXPECT_EQ(deck_well_names({"p1", "P1"}), (std::vector<std::string>{"p1", "P1_2"}));
+}
 
 }  // namespace
 }  // namespace wellknit

@@ -24,7 +24,10 @@ struct NamedMesh {
 };
 
 std::vector<NamedMesh> examples() {
-  return {{"two_boxes", meshes::two_boxes()}, {"box_grid", meshes::box_grid(4)}, {"ring_in_boxes", meshes::ring_in_boxes()}, {"twisted", meshes::twisted_box()}};
+  return {{"two_boxes", meshes::two_boxes()},
+          {"box_grid", meshes::box_grid(4)},
+          {"ring_in_boxes", meshes::ring_in_boxes()},
+          {"twisted", meshes::twisted_box()}};
 }
 
 TEST(ExampleFiles, AreWrittenForTheScripts) {

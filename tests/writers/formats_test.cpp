@@ -21,8 +21,11 @@ TEST(WriterFormats, HaveUniqueNamesAndExtensions) {
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
     EXPECT_FALSE(format.description.empty());
     EXPECT_FALSE(format.extensions.empty());
-    for (const std::string_view extension : format.extensions) EXPECT_TRUE(extensions.insert(extension).second) << extension;
-    EXPECT_TRUE(std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document))) << format.document;
+    for (const std::string_view extension : format.extensions)
+      EXPECT_TRUE(extensions.insert(extension).second) << extension;
+    EXPECT_TRUE(
+        std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document)))
+        << format.document;
   }
   EXPECT_EQ(names, (std::set<std::string_view>{"deck", "hdf5", "vtu"}));
 }

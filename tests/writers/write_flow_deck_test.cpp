@@ -93,7 +93,8 @@ TEST(WriteFlowDeck, AddsUpConnectionsOfOnePair) {
   Connections& all = mesh.connections;
   all.cells.push_back({CellId(0), CellId(1)});
   all.transmissibility.push_back(2.0 * all.transmissibility[ConnectionId(0)]);
-  for (auto* values : {&all.area, &all.non_orthogonality, &all.k_non_orthogonality, &all.planarity, &all.multiplier}) values->push_back(0.0);
+  for (auto* values : {&all.area, &all.non_orthogonality, &all.k_non_orthogonality, &all.planarity, &all.multiplier})
+    values->push_back(0.0);
   all.face.push_back(FaceId());
   all.normal.push_back(Vec3::Zero());
   all.half_distance.push_back({0.0, 0.0});
@@ -108,7 +109,8 @@ TEST(WriteFlowDeck, AddsUpPerforationsOfOneCell) {
   std::vector<WellConnection>& connections = mesh.wells[WellId(0)].connections;
   ASSERT_EQ(connections.size(), 2U);
   connections[1].cell = connections[0].cell;
-  const double sum = (connections[0].well_index + connections[1].well_index) / m3_per_transmissibility_unit(UnitSystem::metric);
+  const double sum =
+      (connections[0].well_index + connections[1].well_index) / m3_per_transmissibility_unit(UnitSystem::metric);
   const std::vector<std::string> lines = records(written(mesh).text, "COMPDAT");
   ASSERT_EQ(lines.size(), 3U);
   std::istringstream in(lines[0]);
@@ -125,7 +127,8 @@ TEST(WriteFlowDeck, LeavesOutCellsWithoutPoreVolumeAndSaysSo) {
   EXPECT_EQ(records(deck.text, "NNC").size(), 12U + 1U - 4U);
   EXPECT_EQ(records(deck.text, "COMPDAT").size(), 3U);
   ASSERT_FALSE(deck.notes.empty());
-  EXPECT_EQ(deck.notes[0], "1 cells without pore volume are inactive in the deck, with 4 connections and 1 perforations");
+  EXPECT_EQ(deck.notes[0],
+            "1 cells without pore volume are inactive in the deck, with 4 connections and 1 perforations");
 }
 
 TEST(WriteFlowDeck, LeavesOutAWellWithoutConnections) {
@@ -134,24 +137,30 @@ TEST(WriteFlowDeck, LeavesOutAWellWithoutConnections) {
   const Deck deck = written(mesh);
   EXPECT_EQ(records(deck.text, "WELSPECS").size(), 1U);
   EXPECT_EQ(deck.text.find("WCONPROD"), std::string::npos);
-  EXPECT_EQ(deck.notes, (std::vector<std::string>{"well PROD is not in the deck: it has no connection to a cell with pore volume"}));
+  EXPECT_EQ(
+      deck.notes,
+      (std::vector<std::string>{"well PROD is not in the deck: it has no connection to a cell with pore volume"}));
 }
 
 TEST(WriteFlowDeck, CountsConnectionsThatFlowDoesNotSee) {
   Mesh mesh = meshes::box_grid(2);
   const double unit = m3_per_transmissibility_unit(UnitSystem::metric);
-  for (std::size_t i = 0; i < mesh.connections.size(); ++i) mesh.connections.transmissibility[ConnectionId(i)] = 0.99e-6 * unit;
+  for (std::size_t i = 0; i < mesh.connections.size(); ++i)
+    mesh.connections.transmissibility[ConnectionId(i)] = 0.99e-6 * unit;
   // 12 faces and the NNC 0-7, without the neighbours in the row 0-1, 2-3, 4-5 and 6-7.
-  EXPECT_EQ(written(mesh).notes, (std::vector<std::string>{"9 connections lie below 1e-06 cP rm3/(day bar): Flow sets them to zero"}));
+  EXPECT_EQ(written(mesh).notes,
+            (std::vector<std::string>{"9 connections lie below 1e-06 cP rm3/(day bar): Flow sets them to zero"}));
   EXPECT_EQ(records(written(mesh).text, "NNC").size(), 13U);  // they stand in the deck all the same
 }
 
 TEST(WriteFlowDeck, SetsPressuresOfWellsAroundTheInitialOne) {
   const std::string text = written(meshes::box_grid(2), {FlowFluids::water}).text;
-  // Depths 2000 to 2010: datum 2005, 0.1 bar a metre: 200.5 bar; drawdown a fifth: 40.1 bar. Water weighs 1000 * 9.80665e-5 bar/m.
-  // INJ has its own reference depth, 1990 m; PROD's is its first cell's, 2002.5 m.
-  EXPECT_EQ(records(text, "WCONINJE"), (std::vector<std::string>{" 'INJ' WATER OPEN BHP 2* 239.129 /"}));   // 200.5 - 15 * 0.0980665 + 40.1
-  EXPECT_EQ(records(text, "WCONPROD"), (std::vector<std::string>{" 'PROD' OPEN BHP 5* 160.15483 /"}));      // 200.5 - 2.5 * 0.0980665 - 40.1
+  // Depths 2000 to 2010: datum 2005, 0.1 bar a metre: 200.5 bar; drawdown a fifth: 40.1 bar. Water weighs 1000
+  // * 9.80665e-5 bar/m. INJ has its own reference depth, 1990 m; PROD's is its first cell's, 2002.5 m.
+  EXPECT_EQ(records(text, "WCONINJE"),
+            (std::vector<std::string>{" 'INJ' WATER OPEN BHP 2* 239.129 /"}));  // 200.5 - 15 * 0.0980665 + 40.1
+  EXPECT_EQ(records(text, "WCONPROD"),
+            (std::vector<std::string>{" 'PROD' OPEN BHP 5* 160.15483 /"}));  // 200.5 - 2.5 * 0.0980665 - 40.1
   const std::vector<std::string> wells = records(text, "WELSPECS");
   ASSERT_EQ(wells.size(), 2U);
   EXPECT_EQ(wells[0], " 'INJ' 'G' 1 1 1990 WATER /");

@@ -29,7 +29,8 @@ MeshFile round_trip(const Mesh& mesh) {
 /// The bytes of an array: equal bytes are equal values, infinities and signs of zero included.
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {
-  return values.empty() ? std::string() : std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  return values.empty() ? std::string()
+                        : std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
 std::vector<std::pair<std::string, std::string>> arrays_of(const Mesh& mesh) {
@@ -62,7 +63,9 @@ void expect_equal(const Mesh& a, const Mesh& b) {
 }
 
 TEST(MeshFile, RoundTripKeepsEveryValue) {
-  for (const Mesh& mesh : {meshes::two_boxes(), meshes::box_grid(3), meshes::ring_in_boxes(), meshes::twisted_box(), Mesh()}) expect_equal(mesh, round_trip(mesh).mesh);
+  for (const Mesh& mesh :
+       {meshes::two_boxes(), meshes::box_grid(3), meshes::ring_in_boxes(), meshes::twisted_box(), Mesh()})
+    expect_equal(mesh, round_trip(mesh).mesh);
 }
 
 TEST(MeshFile, RoundTripKeepsValuesThatAreNotFinite) {
@@ -137,7 +140,8 @@ std::string message_after(const std::function<void(hid_t file)>& damage, const M
 }
 
 template <class T>
-void replace_dataset(hid_t file, const char* name, hid_t type, std::vector<hsize_t> shape, const std::vector<T>& values) {
+void replace_dataset(hid_t file, const char* name, hid_t type, std::vector<hsize_t> shape,
+                     const std::vector<T>& values) {
   H5Ldelete(file, name, H5P_DEFAULT);
   const hdf5::Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
   const hdf5::Handle set(H5Dcreate2(file, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
@@ -174,7 +178,8 @@ TEST(ReadMesh, ReportsFilesOfOtherFormats) {
 
 TEST(ReadMesh, ReportsAnHdf5FileOfAnotherSchema) {
   EXPECT_EQ(message_after([](hid_t file) { H5Adelete(file, "schema"); }),
-            ": schema: expected an HDF5 file with the schema wellknit-mesh, found an HDF5 file without one; make the file anew with `wellknit build`");
+            ": schema: expected an HDF5 file with the schema wellknit-mesh, found an HDF5 file without one; make the "
+            "file anew with `wellknit build`");
 }
 
 TEST(ReadMesh, ReportsAnotherSchemaVersion) {
@@ -203,34 +208,49 @@ TEST(ReadMesh, ReportsEachMissingArray) {
 
 TEST(ReadMesh, ReportsArraysThatDoNotFit) {
   // 8 cells.
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<double>(f, "cells/volume", H5T_NATIVE_DOUBLE, {3}, {1, 2, 3}); })
-                .find("cells/volume: expected arrays that fit each other, found array of a wrong length (3 values where 8 are expected)"),
+  EXPECT_NE(message_after([](hid_t f) {
+              replace_dataset<double>(f, "cells/volume", H5T_NATIVE_DOUBLE, {3}, {1, 2, 3});
+            })
+                .find("cells/volume: expected arrays that fit each other, found array of a wrong length (3 values "
+                      "where 8 are expected)"),
             std::string::npos);
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<double>(f, "cells/properties/SWAT", H5T_NATIVE_DOUBLE, {2}, {1, 2}); }).find("SWAT"), std::string::npos);
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<double>(f, "wells/INJ/connections/well_index", H5T_NATIVE_DOUBLE, {1}, {1}); }).find("wells/INJ/connections"),
+  EXPECT_NE(message_after([](hid_t f) {
+              replace_dataset<double>(f, "cells/properties/SWAT", H5T_NATIVE_DOUBLE, {2}, {1, 2});
+            }).find("SWAT"),
+            std::string::npos);
+  EXPECT_NE(message_after([](hid_t f) {
+              replace_dataset<double>(f, "wells/INJ/connections/well_index", H5T_NATIVE_DOUBLE, {1}, {1});
+            }).find("wells/INJ/connections"),
             std::string::npos);
 }
 
 TEST(ReadMesh, ReportsWrongShapesAndTypes) {
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<double>(f, "vertices", H5T_NATIVE_DOUBLE, {4, 2}, std::vector<double>(8)); })
-                .find("vertices: expected rows of 3 numbers, found shape [4, 2]"),
+  EXPECT_NE(message_after([](hid_t f) {
+              replace_dataset<double>(f, "vertices", H5T_NATIVE_DOUBLE, {4, 2}, std::vector<double>(8));
+            }).find("vertices: expected rows of 3 numbers, found shape [4, 2]"),
             std::string::npos);
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<double>(f, "faces/vertices", H5T_NATIVE_DOUBLE, {4}, std::vector<double>(4)); })
-                .find("faces/vertices: expected integers, found another type"),
+  EXPECT_NE(message_after([](hid_t f) {
+              replace_dataset<double>(f, "faces/vertices", H5T_NATIVE_DOUBLE, {4}, std::vector<double>(4));
+            }).find("faces/vertices: expected integers, found another type"),
             std::string::npos);
-  EXPECT_NE(message_after([](hid_t f) { replace_dataset<std::int64_t>(f, "cells/radial_index", H5T_NATIVE_INT64, {8, 3}, std::vector<std::int64_t>(24)); })
-                .find("integers of at most 4 bytes"),
-            std::string::npos);
+  EXPECT_NE(
+      message_after([](hid_t f) {
+        replace_dataset<std::int64_t>(f, "cells/radial_index", H5T_NATIVE_INT64, {8, 3}, std::vector<std::int64_t>(24));
+      }).find("integers of at most 4 bytes"),
+      std::string::npos);
 }
 
 TEST(ReadMesh, ReportsIndicesOutOfRange) {
   // 8 cells, 27 vertices, 36 faces.
-  const std::vector<std::tuple<const char*, std::int64_t>> cases{{"faces/vertices", 27}, {"faces/vertices", -1},     {"faces/cells", 8},        {"faces/cells", -1},
-                                                                 {"faces/vertex_start", 1}, {"connections/cells", 8}, {"connections/face", 36},  {"connections/face", -2},
-                                                                 {"cells/source_cell", 8},  {"cells/well", 2},        {"transfer/cell", 8},      {"transfer/start", 2},
-                                                                 {"cells/kind", 4},         {"connections/kind", 4},  {"wells/INJ/connections/cell", -1}};
+  const std::vector<std::tuple<const char*, std::int64_t>> cases{
+      {"faces/vertices", 27},   {"faces/vertices", -1},    {"faces/cells", 8},
+      {"faces/cells", -1},      {"faces/vertex_start", 1}, {"connections/cells", 8},
+      {"connections/face", 36}, {"connections/face", -2},  {"cells/source_cell", 8},
+      {"cells/well", 2},        {"transfer/cell", 8},      {"transfer/start", 2},
+      {"cells/kind", 4},        {"connections/kind", 4},   {"wells/INJ/connections/cell", -1}};
   for (const auto& [name, value] : cases) {
-    const std::string message = message_after([&, &array = name, &bad = value](hid_t file) { poke(file, array, 0, bad); });
+    const std::string message =
+        message_after([&, &array = name, &bad = value](hid_t file) { poke(file, array, 0, bad); });
     EXPECT_NE(message.find("arrays that fit each other"), std::string::npos) << name << " " << value << ": " << message;
   }
 }
@@ -244,13 +264,21 @@ TEST(ReadMesh, ReportsSizesThatTheFileCannotHold) {
     const hdf5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(properties.get(), 1, chunk.data());
     const hdf5::Handle space(H5Screate_simple(1, shape.data(), nullptr), H5Sclose);
-    const hdf5::Handle set(H5Dcreate2(file, "cells/volume", H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose);
+    const hdf5::Handle set(
+        H5Dcreate2(file, "cells/volume", H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        H5Dclose);
   });
-  EXPECT_NE(message.find("cells/volume: expected as many values as its shape says, found shape [1000000000000] in 0 bytes"), std::string::npos) << message;
+  EXPECT_NE(
+      message.find("cells/volume: expected as many values as its shape says, found shape [1000000000000] in 0 bytes"),
+      std::string::npos)
+      << message;
 }
 
 TEST(ReadMesh, ReportsAWellThatIsNotThere) {
-  EXPECT_NE(message_after([](hid_t file) { H5Ldelete(file, "wells/PROD", H5P_DEFAULT); }).find("wells_order: expected names of groups in wells, found PROD"), std::string::npos);
+  EXPECT_NE(message_after([](hid_t file) {
+              H5Ldelete(file, "wells/PROD", H5P_DEFAULT);
+            }).find("wells_order: expected names of groups in wells, found PROD"),
+            std::string::npos);
 }
 
 TEST(ReadMesh, ReadsChunkedCompressedArrays) {
@@ -267,7 +295,9 @@ TEST(ReadMesh, ReadsChunkedCompressedArrays) {
     H5Pset_shuffle(properties.get());
     H5Pset_deflate(properties.get(), 9);
     const hdf5::Handle space(H5Screate_simple(1, shape.data(), nullptr), H5Sclose);
-    const hdf5::Handle set(H5Dcreate2(file.get(), "cells/volume", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose);
+    const hdf5::Handle set(
+        H5Dcreate2(file.get(), "cells/volume", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        H5Dclose);
     H5Dwrite(set.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, mesh.cells.volume.raw().data());
   }
   expect_equal(mesh, read_mesh(path).mesh);
@@ -280,7 +310,8 @@ TEST(ReadMesh, ReadsStringsOfVariableLength) {
               const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
               H5Tset_size(type.get(), H5T_VARIABLE);
               const hdf5::Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-              const hdf5::Handle attribute(H5Acreate2(file, "schema", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+              const hdf5::Handle attribute(
+                  H5Acreate2(file, "schema", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
               const char* text = "wellknit-mesh";
               H5Awrite(attribute.get(), type.get(), &text);
             }),
@@ -292,7 +323,7 @@ TEST(ReadMesh, RejectsEveryTruncation) {
   write_hdf5(meshes::two_boxes(), meshes::provenance(), folder.file("whole.h5"));
   const std::string whole = folder.read("whole.h5");
   // A prime step meets every kind of place; the last bytes one by one.
-  for (std::size_t length = 0; length < whole.size(); length += whole.size() - length > 64 ? 61 : 1) {
+  for (std::size_t length = 0; length<whole.size(); length += whole.size() - length> 64 ? 61 : 1) {
     folder.write("cut.h5", whole.substr(0, length));
     EXPECT_THROW(read_mesh(folder.file("cut.h5")), ParseError) << length << " of " << whole.size();
   }
@@ -310,7 +341,8 @@ TEST(ReadMesh, SurvivesDamagedBytes) {
     folder.write("damaged.h5", damaged);
     try {
       const MeshFile file = read_mesh(folder.file("damaged.h5"));
-      EXPECT_EQ(file.mesh.cells.kind.size(), file.mesh.cells.volume.size());  // damage in a value alone: the shapes still fit
+      EXPECT_EQ(file.mesh.cells.kind.size(),
+                file.mesh.cells.volume.size());  // damage in a value alone: the shapes still fit
     } catch (const ParseError&) {
       ++rejected;
     }

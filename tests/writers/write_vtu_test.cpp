@@ -27,7 +27,8 @@ std::vector<T> array(const std::string& file, const std::string& name) {
   const std::size_t element = file.find("Name=\"" + name + "\"");
   if (element == std::string::npos) throw std::runtime_error("no array " + name);
   const std::size_t offset = std::stoul(file.substr(file.find("offset=\"", element) + 8));
-  const std::size_t start = file.find("<AppendedData encoding=\"raw\">\n_") + std::strlen("<AppendedData encoding=\"raw\">\n_") + offset;
+  const std::size_t start =
+      file.find("<AppendedData encoding=\"raw\">\n_") + std::strlen("<AppendedData encoding=\"raw\">\n_") + offset;
   std::uint64_t bytes = 0;
   std::memcpy(&bytes, &file[start], sizeof bytes);
   std::vector<T> values(bytes / sizeof(T));
@@ -37,7 +38,10 @@ std::vector<T> array(const std::string& file, const std::string& name) {
 
 TEST(WriteVtu, HasTheHeadThatEveryVtkReads) {
   const std::string file = written(meshes::two_boxes());
-  EXPECT_NE(file.find("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"), std::string::npos);
+  EXPECT_NE(
+      file.find(
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"),
+      std::string::npos);
   EXPECT_NE(file.find("<Piece NumberOfPoints=\"12\" NumberOfCells=\"2\">"), std::string::npos);
 }
 
@@ -54,21 +58,23 @@ TEST(WriteVtu, WritesHostCellsAsHexahedraAndOthersAsPolyhedra) {
   const Mesh mesh = meshes::ring_in_boxes();
   const std::vector<std::uint8_t> types = array<std::uint8_t>(written(mesh), "types");
   ASSERT_EQ(types.size(), 64U);
-  // In each layer of 32: 16 radial and 8 transition cells, then hosts, of which those at the corners have six quads and the others two
-  // hexagons and eight sides.
+  // In each layer of 32: 16 radial and 8 transition cells, then hosts, of which those at the corners have six quads and
+  // the others two hexagons and eight sides.
   for (std::size_t c = 0; c < 64; ++c) EXPECT_EQ(types[c], c % 32 >= 24 && c % 2 == 0 ? 12 : 42) << c;
 }
 
 TEST(WriteVtu, CarriesEveryProperty) {
   const Mesh mesh = meshes::box_grid(2);
   const std::string file = written(mesh);
-  EXPECT_EQ(array<std::int32_t>(file, "FIPNUM"), std::get<std::vector<std::int32_t>>(mesh.cells.properties.at("FIPNUM")));
+  EXPECT_EQ(array<std::int32_t>(file, "FIPNUM"),
+            std::get<std::vector<std::int32_t>>(mesh.cells.properties.at("FIPNUM")));
   EXPECT_EQ(array<double>(file, "SWAT"), std::get<std::vector<double>>(mesh.cells.properties.at("SWAT")));
   EXPECT_EQ(array<double>(file, "pore_volume"), mesh.cells.pore_volume.raw());
 }
 
 TEST(WriteVtu, GivesTheCentringOfABox) {
-  // The first box is the unit cube, its centre half an edge from each face: 0.5 / cbrt(1). The second is 2 x 1 x 1: 0.5 / cbrt(2).
+  // The first box is the unit cube, its centre half an edge from each face: 0.5 / cbrt(1). The second is 2 x 1 x 1: 0.5
+  // / cbrt(2).
   const std::vector<double> centring = array<double>(written(meshes::two_boxes()), "centring");
   ASSERT_EQ(centring.size(), 2U);
   EXPECT_NEAR(centring[0], 0.5, 1e-14);
@@ -81,7 +87,9 @@ TEST(WriteVtu, EscapesPropertyNames) {
   EXPECT_NE(written(mesh).find("Name=\"A&lt;B&amp;&quot;C\""), std::string::npos);
 }
 
-TEST(WriteVtu, GivesTheSameBytesTwice) { EXPECT_EQ(written(meshes::ring_in_boxes()), written(meshes::ring_in_boxes())); }
+TEST(WriteVtu, GivesTheSameBytesTwice) {
+  EXPECT_EQ(written(meshes::ring_in_boxes()), written(meshes::ring_in_boxes()));
+}
 
 }  // namespace
 }  // namespace wellknit
