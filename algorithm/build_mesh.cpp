@@ -16,6 +16,7 @@
 #include "algorithm/assembly.h"
 #include "algorithm/flow_connections.h"
 #include "algorithm/property_transfer.h"
+#include "algorithm/well_connections.h"
 #include "algorithm/well_path.h"
 #include "algorithm/well_tube.h"
 #include "model/errors.h"
@@ -316,23 +317,27 @@ class Builder {
     s.notes = tube.notes;
   }
 
-  void add_wells(const Assembly& assembly) {
-    Mesh& mesh = const_cast<Assembly&>(assembly).mesh;
+  void add_wells(Assembly& assembly) {
     for (std::size_t w = 0; w < wells_.size(); ++w) {
       const Well& well = wells_[w];
+      WellSummary& summary = result_.summary.wells[w];
       MeshWell out;
       out.name = well.name;
       out.trajectory = well.trajectory;
       out.bore_radius = well.radial.bore_radius;
+      out.drainage_radius = summary.meshed ? well.radial.drainage_radius : 0.0;
       out.type = well.type;
       out.reference_depth = well.reference_depth;
-      for (const PlacedTube& t : assembly.tubes)
-        if (t.tube->well == w) {
-          out.drainage_radius = well.radial.drainage_radius;
-          out.connections = connect_tube(mesh, t, well);
-        }
-      result_.summary.wells[w].connections = static_cast<std::int64_t>(out.connections.size());
-      mesh.wells.push_back(std::move(out));
+      try {
+        WellConnections connections = connect_well(grid_, host_, *locator_, assembly, w, well);
+        summary.index_connections = connections.by_index;
+        out.connections = std::move(connections.all);
+      } catch (const InvalidInput& e) {
+        summary.notes.push_back(fmt::format("it has no connections: {}", e.what()));
+      }
+      summary.connections = static_cast<std::int64_t>(out.connections.size());
+      if (out.connections.empty()) summary.notes.push_back("no active cell is open to it");
+      assembly.mesh.wells.push_back(std::move(out));
     }
   }
 

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/// The cells of the finished mesh that a well is open to: radial cells along its tube, host cells by Peaceman's index, transition cells
+/// where the well runs through the cavity beyond its tube's ends.
+#pragma once
+
+#include <vector>
+
+#include "algorithm/assembly.h"
+#include "algorithm/cell_locator.h"
+#include "model/well.h"
+
+namespace wellknit {
+
+struct WellConnections {
+  std::vector<WellConnection> all;   ///< each cell once, in the order of measured depth within each kind
+  std::int64_t by_index = 0;         ///< of these, host and transition cells
+};
+
+/// Needs the mesh's permeabilities and transfer map. Throws InvalidInput where the bore is too wide, or the skin too low, for a cell.
+WellConnections connect_well(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly,
+                             std::size_t well_index, const Well& well);
+
+}  // namespace wellknit
