@@ -97,27 +97,27 @@ constexpr auto keyword_rules = std::to_array<DeckKeywordRule>({
     {"MULTIPLY", A::operation, with_arrays},
     {"MINVALUE", A::operation, with_arrays},
     {"MAXVALUE", A::operation, with_arrays},
-    {"OPERATE", A::not_applied, with_arrays},
-    {"OPERATER", A::not_applied, with_arrays},
-    {"EQUALREG", A::not_applied, with_arrays},
-    {"ADDREG", A::not_applied, with_arrays},
-    {"MULTIREG", A::not_applied, with_arrays},
-    {"COPYREG", A::not_applied, with_arrays},
-    {"COARSEN", A::not_applied, in_grid},
+    {"OPERATE", A::not_applied_list, with_arrays},
+    {"OPERATER", A::not_applied_list, with_arrays},
+    {"EQUALREG", A::not_applied_list, with_arrays},
+    {"ADDREG", A::not_applied_list, with_arrays},
+    {"MULTIREG", A::not_applied_list, with_arrays},
+    {"COPYREG", A::not_applied_list, with_arrays},
+    {"COARSEN", A::not_applied_list, in_grid},
 
-    {"FAULTS", A::not_applied, in_grid},
-    {"MULTFLT", A::not_applied, in_grid_or_edit},
-    {"MULTREGT", A::not_applied, in_grid_or_edit},
-    {"MULTREGP", A::not_applied, in_grid_or_edit},
-    {"NNC", A::not_applied, in_grid_or_edit},
-    {"EDITNNC", A::not_applied, in_grid_or_edit},
-    {"EDITNNCR", A::not_applied, in_grid_or_edit},
+    {"FAULTS", A::not_applied_list, in_grid},
+    {"MULTFLT", A::not_applied_list, in_grid_or_edit},
+    {"MULTREGT", A::not_applied_list, in_grid_or_edit},
+    {"MULTREGP", A::not_applied_list, in_grid_or_edit},
+    {"NNC", A::not_applied_list, in_grid_or_edit},
+    {"EDITNNC", A::not_applied_list, in_grid_or_edit},
+    {"EDITNNCR", A::not_applied_list, in_grid_or_edit},
     {"MINPV", A::not_applied, in_grid_or_edit},
     {"MINPVV", A::not_applied, in_grid_or_edit},
     {"MINPORV", A::not_applied, in_grid_or_edit},
     {"PINCHREG", A::not_applied, in_grid},
-    {"AQUNUM", A::not_applied, in_grid},
-    {"AQUCON", A::not_applied, in_grid},
+    {"AQUNUM", A::not_applied_list, in_grid},
+    {"AQUCON", A::not_applied_list, in_grid},
 
     {"INIT", A::flag, in_grid_or_edit},
     {"ECHO", A::flag, any},
@@ -252,19 +252,27 @@ auto by_name(const Rules& rules) {
   return out;
 }
 
+const auto& rules_by_name() {
+  static const auto rules = by_name(keyword_rules);
+  return rules;
+}
+
 }  // namespace
 
 const DeckKeywordRule* find_deck_keyword(std::string_view name, DeckSection section) {
-  static const auto rules = by_name(keyword_rules);
   static constexpr DeckKeywordRule cell_array{"", DeckAction::cell_array, with_arrays};
   static constexpr DeckKeywordRule unapplied{"", DeckAction::not_applied, with_arrays};
   const auto in_section = [section](const DeckKeywordRule& rule) {
     return (rule.sections & static_cast<unsigned>(section)) != 0 ? &rule : nullptr;
   };
-  if (const auto found = rules.find(name); found != rules.end()) return in_section(*found->second);
+  if (const auto found = rules_by_name().find(name); found != rules_by_name().end()) return in_section(*found->second);
   if (find_cell_array(name) != nullptr) return in_section(cell_array);
   if (is_unapplied_array(name)) return in_section(unapplied);
   return nullptr;
+}
+
+bool is_known_keyword(std::string_view name) {
+  return rules_by_name().contains(name) || find_cell_array(name) != nullptr || is_unapplied_array(name);
 }
 
 DeckSection section_of(std::string_view name) {

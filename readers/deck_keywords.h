@@ -26,12 +26,13 @@ enum class DeckAction : std::uint8_t {
   include,
   end,
   end_include,
-  skip_block,   ///< up to ENDSKIP
-  flag,         ///< known, without data and without meaning for the grid
-  skip,         ///< the same, with data
-  skip_record,  ///< the same, one record
-  not_applied,  ///< would change pore volumes or transmissibilities: noted
-  refuse,       ///< changes what the grid is
+  skip_block,        ///< up to ENDSKIP
+  flag,              ///< known, without data and without meaning for the grid
+  skip,              ///< the same, with data
+  skip_record,       ///< the same, one record
+  not_applied,       ///< would change pore volumes or transmissibilities: noted
+  not_applied_list,  ///< the same, records up to an empty one
+  refuse,            ///< changes what the grid is
   title,
   paths,
   units,
@@ -62,6 +63,9 @@ struct DeckKeywordRule {
 
 /// The rule of a keyword (upper case) in this section, or nothing.
 const DeckKeywordRule* find_deck_keyword(std::string_view name, DeckSection section);
+
+/// True for a keyword that has a rule in any section.
+bool is_known_keyword(std::string_view name);
 
 /// The section that a keyword begins.
 DeckSection section_of(std::string_view name);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "readers/deck_keywords.h"
 #include "readers/formats.h"
 #include "readers/text.h"
 
@@ -121,8 +122,22 @@ DeckRecord DeckStream::next_record(std::size_t most_items) {
     const DeckToken token = next_data_token();
     if (record.line == 0) record.line = token.line;
     if (token.kind == DeckToken::Kind::slash) return record;
+    if (record.empty()) refuse_keyword_in_list(token);
     append_items(record, token, most_items);
   }
+}
+
+void DeckStream::skip_record() {
+  while (next_data_token().kind != DeckToken::Kind::slash) continue;
+}
+
+/// A list whose closing '/' was forgotten would swallow the next keyword as a record.
+void DeckStream::refuse_keyword_in_list(const DeckToken& token) {
+  if (token.kind != DeckToken::Kind::word || !token.first_on_line || token.column != 0 ||
+      !tokens().rest_of_line().empty() || !is_known_keyword(upper_case(token.text)))
+    return;
+  fail(token.line, {fmt::format("a '/' that ends the records of {}", keyword_.name),
+                    fmt::format("the keyword {}", quoted_for_message(token.text)), "add the '/'"});
 }
 
 namespace {

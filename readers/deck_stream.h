@@ -89,8 +89,11 @@ class DeckStream {
   }
   DeckToken next_path() { return tokens().next_path(); }
 
-  /// The record up to '/'. Throws ParseError at the file's end and for more items than this.
+  /// The record up to '/'. Throws ParseError at the file's end, at a keyword in its place, and for more items than
+  /// this.
   DeckRecord next_record(std::size_t most_items);
+  /// Passes over a record of any words, names of keywords among them.
+  void skip_record();
   /// One value of an array, or nothing at its '/'.
   std::optional<RepeatedToken> next_value();
 
@@ -133,6 +136,7 @@ class DeckStream {
   [[nodiscard]] std::optional<FileContent> find_include(const std::string& name);
   [[nodiscard]] std::string current_file() const { return frames_.empty() ? main_file_ : frames_.back().content->path; }
   DeckToken next_data_token();
+  void refuse_keyword_in_list(const DeckToken& token);
   void append_items(DeckRecord& record, const DeckToken& token, std::size_t most_items) const;
   [[nodiscard]] ParseError::What bad_item(const DeckRecord& record, std::size_t item,
                                           const std::string& expected) const;

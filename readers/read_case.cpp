@@ -99,12 +99,16 @@ void CaseReader::handle(const DeckKeyword& keyword) {
     case DeckAction::refuse:
       stream_.fail(keyword.line, {"a single corner-point grid in text", std::string(rule->detail),
                                   "not read yet; export the global grid without it"});
+    case DeckAction::not_applied_list:
+      stream_.note_once(keyword.name, keyword.line, fmt::format("{} is not applied yet", keyword.name));
+      while (!stream_.next_record(1000).empty()) continue;
+      return;
     case DeckAction::not_applied:
       stream_.note_once(keyword.name, keyword.line, fmt::format("{} is not applied yet", keyword.name));
       [[fallthrough]];
     case DeckAction::skip: skips_unknown_ = true; return;
     case DeckAction::flag: return;
-    case DeckAction::skip_record: (void)stream_.next_record(1000); return;
+    case DeckAction::skip_record: stream_.skip_record(); return;
     case DeckAction::well_path:
       stream_.note_once(keyword.name, keyword.line,
                         fmt::format("{} is not read yet; give the path as a trajectory file", keyword.name));

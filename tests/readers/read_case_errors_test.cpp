@@ -167,6 +167,13 @@ TEST(CaseErrors, FormOfTheDeck) {
   expect_error(std::string("SPECGRID\n\0", 10), 0, "", "binary data");
 }
 
+TEST(CaseErrors, ListsWithoutTheirEnd) {
+  expect_error(grid + "EQUALS\n PORO 0.2 /\nNTG\n 1 /\n", next_line + 2, "EQUALS",
+               "a '/' that ends the records of EQUALS, found the keyword 'NTG'");
+  expect_error(grid + "FAULTS\n 'F' 1 1 1 1 1 1 X /\nPORO\n 1 /\n", next_line + 2, "FAULTS",
+               "found the keyword 'PORO'");
+}
+
 TEST(CaseErrors, BoxesAndOperations) {
   expect_error(grid + "BOX\n 1 2 1 1 1 1 /\n", next_line + 1, "BOX", "a box within 1 and 1 along I, found 1 to 2");
   expect_error(grid + "EQUALS\n PORO 0.2 1 1 0 1 /\n/\n", next_line + 1, "EQUALS", "along J, found 0 to 1");

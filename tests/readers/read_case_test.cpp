@@ -194,6 +194,13 @@ UNHEARD
   EXPECT_EQ(read.notes[2], "case.GRDECL:20: FLAGONLY is not understood and is skipped");
 }
 
+TEST(ReadCase, PassesOverListsThatOpenWithNamesOfArrays) {
+  const Case read = case_of(unit_boxes(1, 1, 1) +
+                            "EQUALREG\nPORO 0.25 1 M /\nPERMX 100 1 M /\n/\nOPERATE\nPORO 6* 'MULTA' NTG 2 1 /\n/\n");
+  EXPECT_TRUE(read.grid.porosity.empty());
+  EXPECT_EQ(read.notes.size(), 2U);
+}
+
 TEST(ReadCase, ReadsFurtherGridFilesAfterTheCase) {
   MemoryFiles files({{"a/grid", unit_boxes(2, 1, 1) + "END\n"},
                      {"poro", "NOECHO\nPORO\n 0.1 0.2 /\nECHO\n"},
