@@ -110,7 +110,8 @@ void sort_single_column(const CornerPointGrid& grid, std::vector<DeckCompletion>
   const std::int64_t column = completions.front().cell.value() % layer;
   if (std::all_of(completions.begin(), completions.end(),
                   [&](const auto& c) { return c.cell.value() % layer == column; }))
-    std::sort(completions.begin(), completions.end(), [](const auto& a, const auto& b) { return a.cell < b.cell; });
+    std::sort(completions.begin(), completions.end(),
+              [](const auto& a, const auto& b) { return a.cell.value() < b.cell.value(); });
 }
 
 }  // namespace
