@@ -59,16 +59,25 @@ void write_well_row(Text out, const BuildReport& report, const WellSummary& well
 }
 
 /// What was not meshed and why, what is connected by index, and what the steps had to say.
-void write_well_notes(Text out, const BuildReport& report, const WellSummary& well) {
-  if (const WellSummary* first = first_of_cavity(report.build, well)) {
-    fmt::format_to(out, "  {}: in one cavity with {}, whose row counts both\n", well.name, first->name);
-  }
+void write_well_notes(Text out, const WellSummary& well) {
   if (!well.meshed) fmt::format_to(out, "  {}: not meshed: {}\n", well.name, well.reason);
   if (well.index_connections > 0) {
     fmt::format_to(out, "  {}: {} of {} connected by a Peaceman index\n", well.name, well.index_connections,
                    counted(well.connections, "cell"));
   }
   for (const std::string& note : well.notes) fmt::format_to(out, "  {}: {}\n", well.name, note);
+}
+
+/// A line for each cavity that several wells share.
+void write_shared_cavities(Text out, const BuildSummary& build) {
+  for (const WellSummary& well : build.wells) {
+    if (cavity_of(build, well) == nullptr || first_of_cavity(build, well) != nullptr) continue;
+    std::string others;
+    for (const WellSummary& other : build.wells) {
+      if (first_of_cavity(build, other) == &well) others += (others.empty() ? "" : ", ") + other.name;
+    }
+    if (!others.empty()) fmt::format_to(out, "  {}: its row has the figures of the one cavity it shares with {}\n", well.name, others);
+  }
 }
 
 void write_wells(Text out, const BuildReport& report) {
@@ -81,7 +90,8 @@ void write_wells(Text out, const BuildReport& report) {
   fmt::format_to(out, "{:{}}  {:10} {:>7} {:>7} {:>10} {:>6} {:>8} {:>5} {:>6} {:>11}\n", "wells", width + 2, "mode", "removed",
                  "refined", "transition", "radial", "inverted", "loops", "points", "connections");
   for (const WellSummary& well : report.build.wells) write_well_row(out, report, well, width);
-  for (const WellSummary& well : report.build.wells) write_well_notes(out, report, well);
+  write_shared_cavities(out, report.build);
+  for (const WellSummary& well : report.build.wells) write_well_notes(out, well);
 }
 
 void write_cavities(Text out, const BuildReport& report) {

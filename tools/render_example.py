@@ -76,8 +76,6 @@ def cut(mesh, origin, u, v):
     """Polygons of the plane through origin with axes u and v: [(kind, n x 2 array of (u, v))]."""
     distance = (mesh.vertices - origin) @ np.cross(u, v)
     side = distance > 0
-    low = np.full(len(mesh.kind), True)
-    high = np.full(len(mesh.kind), True)
     mixed = np.zeros(len(mesh.kind), bool)
     segments_of_face = {}
     for face, loop in enumerate(mesh.loops):
@@ -86,7 +84,6 @@ def cut(mesh, origin, u, v):
             segments_of_face[face] = face_crossings(loop, side, distance)
             cells = mesh.face_cells[face]
             mixed[cells[cells >= 0]] = True
-    del low, high
     polygons = []
     for cell in np.flatnonzero(mixed):
         segments = [s for face in mesh.faces[cell] for s in segments_of_face.get(face, [])]
@@ -138,7 +135,7 @@ def draw(axes, polygons, window, seams=(), line=0.35):
     for kind in (HOST, REFINED, TRANSITION, RADIAL):
         shown = [p for k, p in polygons
                  if k == kind and p[:, 0].max() > left and p[:, 0].min() < right and p[:, 1].max() > top and p[:, 1].min() < bottom]
-        axes.add_collection(PolyCollection(shown, facecolors=COLOUR[kind], edgecolors=COLOUR[kind], linewidths=0.2))
+        axes.add_collection(PolyCollection(shown, facecolors=COLOUR[kind], edgecolors=COLOUR[kind], linewidths=0.6))
         edges = []
         for polygon in shown:
             for p, q in zip(polygon, np.roll(polygon, -1, axis=0)):
@@ -165,14 +162,15 @@ def crossing(path, depth):
     return np.array([np.interp(depth, path[:, 2], path[:, c]) for c in (0, 1)])
 
 
-def draw_section(axes, mesh, path):
+def draw_section(axes, mesh, path, name):
     margin = 75.0
     polygons, seams = section(mesh, path, margin)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path[:, :2], axis=0).T))])
-    top, bottom = (f([p[:, 1] for _, p in polygons if p[:, 0].min() < along[-1]]) for f in (lambda ps: min(p.min() for p in ps), lambda ps: max(p.max() for p in ps)))
+    depths = np.concatenate([polygon[:, 1] for _, polygon in polygons])
+    top, bottom = depths.min(), depths.max()
     draw(axes, polygons, (-margin, along[-1] + margin, top - 3.0, bottom + 3.0), seams)
-    axes.plot(along, path[:, 2], color=BORE_COLOUR, linewidth=1.2)
-    axes.set_title("vertical section along the curved well", fontsize=9, loc="left")
+    axes.plot(along, path[:, 2], color=BORE_COLOUR, linewidth=0.7)
+    axes.set_title(f"vertical section along the well '{name}'", fontsize=9, loc="left")
     axes.set_xlabel("along the well's plan view, m", fontsize=7)
     axes.set_ylabel("depth, m", fontsize=7)
 
@@ -208,18 +206,19 @@ def main():
     mesh = Mesh(arguments.mesh)
     along, around = mesh.paths[arguments.along], mesh.paths[arguments.around]
 
-    figure = plt.figure(figsize=(11.0, 8.6), dpi=120)
-    grid = figure.add_gridspec(2, 2, width_ratios=(1.75, 1.0), height_ratios=(0.78, 1.0), wspace=0.16, hspace=0.22)
-    draw_section(figure.add_subplot(grid[0, 0]), mesh, along)
-    draw_across(figure.add_subplot(grid[0, 1]), mesh, along, 0.5, 42.0)
-    x, y = crossing(around, arguments.depth)
+    figure = plt.figure(figsize=(11.0, 7.6), dpi=130)
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.9, 1.0), height_ratios=(0.8, 1.0), wspace=0.13, hspace=0.24, top=0.915)
+    draw_section(figure.add_subplot(grid[0, 0]), mesh, along, arguments.along)
+    draw_across(figure.add_subplot(grid[0, 1]), mesh, along, 0.5, 40.0)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-    draw_plan(figure.add_subplot(grid[1, 0]), mesh, arguments.depth, (low[0] + 60, high[0] - 60, high[1] - 170, low[1] + 60)[:2] + (low[1] + 60, high[1] - 160),
-              f"plan at {arguments.depth:g} m", 0.3, "y, m")
-    draw_plan(figure.add_subplot(grid[1, 1]), mesh, arguments.depth, (x - 60, x + 60, y - 60, y + 60), "around the steep well", 0.5, "")
+    window = (low[0] + 60.0, high[0] - 60.0, low[1] + 60.0, high[1] - 220.0)
+    draw_plan(figure.add_subplot(grid[1, 0]), mesh, arguments.depth, window, f"plan at a depth of {arguments.depth:g} m", 0.3, "y, m")
+    x, y = crossing(around, arguments.depth)
+    window = (x - 55.0, x + 55.0, y - 55.0, y + 55.0)
+    draw_plan(figure.add_subplot(grid[1, 1]), mesh, arguments.depth, window, f"around the well '{arguments.around}'", 0.5, "")
     patches = [Patch(facecolor=COLOUR[k], edgecolor=EDGE_COLOUR, linewidth=0.5, label=name)
                for k, name in ((HOST, "host"), (TRANSITION, "transition"), (RADIAL, "radial"))]
-    figure.legend(handles=patches, loc="upper center", ncol=3, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 0.965))
+    figure.legend(handles=patches, loc="upper center", ncol=3, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 1.0))
     figure.savefig(arguments.out, bbox_inches="tight", pad_inches=0.08)
 
 
