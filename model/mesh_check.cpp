@@ -25,6 +25,12 @@ bool is_finite(const T&) {
   return true;  // integers
 }
 
+/// Put into words only when something is wrong with it.
+struct Entity {
+  const char* kind;
+  std::int64_t id;
+};
+
 /// A directed edge of a cell's surface, kept with its smaller vertex first so that both directions sort together.
 struct SurfaceEdge {
   VertexId low, high;
@@ -59,6 +65,10 @@ class MeshCheck {
     violations_.push_back({std::string(check), std::move(entity), std::move(detail)});
   }
 
+  void add(std::string_view check, Entity entity, std::string detail) {
+    add(check, fmt::format("{} {}", entity.kind, entity.id), std::move(detail));
+  }
+
   void finite_values() {
     for_each_array(mesh_, [&](std::string_view path, const auto& values) {
       const std::string_view entity = path.starts_with("cells/")         ? "cell"
@@ -85,7 +95,7 @@ class MeshCheck {
       sorted.assign(loop.begin(), loop.end());
       std::sort(sorted.begin(), sorted.end());
       const auto distinct = std::distance(sorted.begin(), std::unique(sorted.begin(), sorted.end()));
-      const std::string entity = fmt::format("face {}", f);
+      const Entity entity{"face", static_cast<std::int64_t>(f)};
       if (distinct < 3)
         add("face with fewer than 3 distinct vertices", entity, fmt::format("{} of {}", distinct, loop.size()));
       for (std::size_t i = 0; i < loop.size(); ++i)
@@ -118,7 +128,7 @@ class MeshCheck {
       if (rising == falling && rising > 1) ++repeated;
       edge = end;
     }
-    const std::string entity = fmt::format("cell {}", cell.value());
+    const Entity entity{"cell", cell.value()};
     if (edges_.empty()) add("cell without faces", entity, "");
     if (open > 0) add("cell not watertight", entity, fmt::format("{} of its edges have no counterpart", open));
     if (repeated > 0) add("edge used more than once in a cell", entity, fmt::format("{} edges", repeated));
@@ -142,7 +152,7 @@ class MeshCheck {
       if (!(pyramid > 0.0)) ++unseen;
     }
     volumes_.push_back(volume);
-    const std::string entity = fmt::format("cell {}", cell.value());
+    const Entity entity{"cell", cell.value()};
     const double open = area > 0.0 ? flux.norm() / area : 0.0;
     if (!(open <= options_.open_surface_limit))
       add("open surface", entity, fmt::format("area vectors add up to {:.3g} of the area", open));
@@ -158,7 +168,7 @@ class MeshCheck {
       const CellId cell(c);
       const double stored = mesh_.cells.volume[cell];
       const bool made = mesh_.cells.kind[cell] >= CellKind::transition;
-      const std::string entity = fmt::format("cell {}", c);
+      const Entity entity{"cell", static_cast<std::int64_t>(c)};
       if (!(stored > 0.0)) add("stored volume not positive", entity, fmt::format("{:.6g} m3", stored));
       // Slivers below a millionth of the mean cell are measured against that instead of against themselves.
       const double scale = std::max(1e-6 * std::abs(mean), std::abs(volumes_[c]));
@@ -176,7 +186,7 @@ class MeshCheck {
       const ConnectionId id(i);
       const auto& pair = all.cells[id];
       const double t = all.transmissibility[id];
-      const std::string entity = fmt::format("connection {}", i);
+      const Entity entity{"connection", static_cast<std::int64_t>(i)};
       if (pair[0] == pair[1]) add("connection of a cell to itself", entity, fmt::format("cell {}", pair[0].value()));
       if (pair[0] > pair[1])
         add("connection with the larger cell first", entity,
@@ -202,7 +212,7 @@ class MeshCheck {
       const FaceId face = mesh_.connections.face[ConnectionId(i)];
       if (!face.is_valid()) continue;
       ++uses[face.index()];
-      const std::string entity = fmt::format("connection {}", i);
+      const Entity entity{"connection", static_cast<std::int64_t>(i)};
       auto cells = mesh_.faces.cells[face];
       std::sort(cells.begin(), cells.end());
       auto pair = mesh_.connections.cells[ConnectionId(i)];
