@@ -32,7 +32,7 @@ Vec3 slack_of(const std::array<Vec3, 8>& c) {
   const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * magnitude;
   Vec3 slack;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto step = static_cast<std::size_t>(1 << axis);
+    const std::size_t step = std::size_t{1} << static_cast<unsigned>(axis);
     double longest = 0.0;
     for (std::size_t corner = 0; corner < 8; ++corner)
       if ((corner & step) == 0) longest = std::max(longest, (c[corner + step] - c[corner]).norm());
