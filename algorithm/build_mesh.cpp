@@ -112,6 +112,9 @@ class Builder {
     result_.summary.wells.resize(wells_.size());
     cells_on_path_.resize(wells_.size());
     modes_.resize(wells_.size(), MeshMode::automatic);
+    is_steep_.resize(wells_.size(), 0);
+    has_changed_mode_.resize(wells_.size(), 0);
+    first_reason_.resize(wells_.size());
     for (std::size_t w = 0; w < wells_.size(); ++w) {
       WellSummary& s = result_.summary.wells[w];
       s.name = wells_[w].name;
@@ -147,6 +150,8 @@ class Builder {
     const auto path = path_in_reference(frame, wells_[well]);
     if (path.size() < 2) return NoTube{"its path inside the grid is shorter than one part in two thousand of its length"};
     TubeOrReason tube = NoTube{};
+    const Vec3 chord = path.back().reference - path.front().reference;
+    is_steep_[well] = std::abs(chord.z()) > std::hypot(chord.x(), chord.y()) ? 1 : 0;
     if (modes_[well] == MeshMode::automatic)
       modes_[well] = wells_[well].radial.mode == MeshMode::automatic ? choose_mode(path, wells_[well].radial.drainage_radius)
                                                                       : wells_[well].radial.mode;
@@ -169,8 +174,13 @@ class Builder {
     for (const std::size_t w : cluster.wells) {
       auto tube = tube_of(frame, w);
       if (const auto* none = std::get_if<NoTube>(&tube)) {
-        leave_out(w, none->reason);
-        continue;
+        Cluster alone{{w}, {}};
+        drop(alone, {none->reason, {w}});
+        if (!alone.wells.empty()) tube = tube_of(frame, w);
+        if (const auto* still_none = std::get_if<NoTube>(&tube)) {
+          if (!alone.wells.empty()) drop(alone, {still_none->reason, {w}});
+          continue;
+        }
       }
       kept.push_back(w);
       attempt.tubes.push_back(std::move(std::get<Tube>(tube)));
@@ -179,9 +189,18 @@ class Builder {
     return attempt;
   }
 
+  /// Takes wells out of a cluster; one whose mode was chosen automatically first gets a trial in the other mode.
   void drop(Cluster& cluster, const NoCavity& none) {
     for (const std::size_t w : none.wells) {
-      leave_out(w, none.reason);
+      const bool may_change = wells_[w].radial.mode == MeshMode::automatic && has_changed_mode_[w] == 0;
+      if (may_change && (modes_[w] == MeshMode::layered || is_steep_[w] != 0)) {
+        modes_[w] = modes_[w] == MeshMode::layered ? MeshMode::swept : MeshMode::layered;
+        has_changed_mode_[w] = 1;
+        first_reason_[w] = none.reason;
+        continue;
+      }
+      // The reason of the mode that fits the well better is the one that helps.
+      leave_out(w, has_changed_mode_[w] != 0 ? first_reason_[w] : none.reason);
       std::erase(cluster.wells, w);
     }
   }
@@ -350,6 +369,9 @@ class Builder {
   std::unique_ptr<CellLocator> locator_;
   std::vector<std::vector<std::array<std::int64_t, 3>>> cells_on_path_;  ///< per well, along its path
   std::vector<MeshMode> modes_;                                        ///< per well; automatic: not chosen yet
+  std::vector<std::uint8_t> is_steep_;          ///< per well: within 45 degrees of the layers' normal in E_ref
+  std::vector<std::uint8_t> has_changed_mode_;  ///< per well
+  std::vector<std::string> first_reason_;       ///< per well: why the mode chosen first did not do
   std::vector<Cluster> clusters_;
   std::vector<TransitionMesh> cavities_;
 };

@@ -51,12 +51,16 @@ struct Tetrahedron {
 
 class CavityMapping::Implementation {
  public:
-  Implementation(const Cavity& cavity, MappingMethod method) : cavity_(cavity), method_(method) {
-    insert_boundary();
-    if (!label_and_collect()) return;
+  Implementation(const Cavity& cavity, MappingMethod method) : cavity_(cavity), method_(method), is_left_out_(cavity.plane_nodes.size(), 0) {
+    do {
+      start();
+      insert_boundary();
+      if (!label_and_collect()) return;
+    } while (leave_out_plane_nodes());
     report_.inverted_first = count_inverted();
     correct();
     report_.inverted_last = count_inverted();
+    find_tubes_at_fault();
     report_.tetrahedra = static_cast<std::int64_t>(tetrahedra_.size());
     report_.smallest_ratio = smallest_ratio();
     if (report_.failure.empty() && report_.inverted_last > 0)
@@ -75,9 +79,19 @@ class CavityMapping::Implementation {
  private:
   // ---- triangulation ----
 
+  void start() {
+    delaunay_.clear();
+    hint_ = CellHandle();
+    reference_.clear();
+    real_.clear();
+    low_.clear();
+    high_.clear();
+    plane_node_of_.clear();
+    faces_at_.assign(cavity_.vertices.size(), {});
+  }
+
   void insert_boundary() {
     // The lists of faces at each vertex tell whether a triangle lies in a face.
-    faces_at_.resize(cavity_.vertices.size());
     for (std::size_t f = 0; f < cavity_.faces.size(); ++f) {
       low_.push_back(cavity_.faces[f].t_low);
       high_.push_back(cavity_.faces[f].t_high);
@@ -85,11 +99,42 @@ class CavityMapping::Implementation {
     }
     for (const CavityVertex& v : cavity_.vertices) insert(v.reference, v.real);
     fixed_ = reference_.size();
-    for (const PlaneNode& n : cavity_.plane_nodes)
-      if (reserve_room(n.reference)) {
-        insert(n.reference, n.real);
-        ++fixed_;
+    for (std::size_t n = 0; n < cavity_.plane_nodes.size(); ++n) {
+      const PlaneNode& node = cavity_.plane_nodes[n];
+      if (is_left_out_[n] != 0 || !reserve_room(node.reference)) continue;
+      insert(node.reference, node.real);
+      plane_node_of_.push_back(n);
+      ++fixed_;
+    }
+  }
+
+  /// A node of the grid's outside that makes an inverted tetrahedron cannot be helped by points inside: where a layered tube's circle in
+  /// E_ref and its real one stand differently to the node, the surface itself is folded. True when some were found.
+  bool leave_out_plane_nodes() {
+    bool found = false;
+    for (const Tetrahedron& t : tetrahedra_) {
+      if (ratio(t) > 0.0) continue;
+      for (const auto v : t.vertex) {
+        const auto at = static_cast<std::size_t>(v);
+        if (at < cavity_.vertices.size() || at >= fixed_) continue;
+        auto& left_out = is_left_out_[plane_node_of_[at - cavity_.vertices.size()]];
+        report_.plane_nodes_left_out += left_out == 0 ? 1 : 0;
+        left_out = 1;
+        found = true;
       }
+    }
+    return found;
+  }
+
+  void find_tubes_at_fault() {
+    std::set<std::size_t> tubes;
+    for (const Tetrahedron& t : tetrahedra_) {
+      if (ratio(t) > 0.0) continue;
+      for (const auto v : t.vertex)
+        if (const auto at = static_cast<std::size_t>(v); at < cavity_.vertices.size() && !cavity_.vertices[at].is_host)
+          tubes.insert(cavity_.vertices[at].tube);
+    }
+    report_.tubes_at_fault.assign(tubes.begin(), tubes.end());
   }
 
   void insert(const Vec3& reference, const Vec3& real) {
@@ -411,6 +456,8 @@ class CavityMapping::Implementation {
   std::vector<Vec3> reference_;  ///< per vertex of the triangulation
   std::vector<Vec3> real_;
   std::size_t fixed_ = 0;        ///< vertices before this one do not move
+  std::vector<std::uint8_t> is_left_out_;   ///< per plane node of the cavity
+  std::vector<std::size_t> plane_node_of_;  ///< per inserted plane node: its place in the cavity's
   std::vector<Tetrahedron> tetrahedra_;
   std::vector<std::vector<std::size_t>> balls_;  ///< per free vertex
   /// Six volumes, m3, below which a reference tetrahedron counts as this large: a sliver's ratio must not rule its ball.

@@ -23,7 +23,9 @@ struct MappingReport {
   std::int64_t loops = 0;
   std::int64_t points_inserted = 0;
   std::int64_t tetrahedra = 0;
+  std::int64_t plane_nodes_left_out = 0;  ///< of the grid's outside: their real positions contradict the tubes' there
   double smallest_ratio = 0.0;       ///< of real to reference volume
+  std::vector<std::size_t> tubes_at_fault;  ///< places in the cavity's tubes: those with a vertex in a tetrahedron that stays inverted
   std::string failure;               ///< why the mapping is not usable; empty when it is
 };
 

@@ -99,7 +99,14 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
   mesh.summary.inverted_tetrahedra = report.inverted_first;
   mesh.summary.loops = report.loops;
   mesh.summary.points_inserted = report.points_inserted;
-  if (!report.failure.empty()) return failed(mesh.cavity, report.failure);
+  if (!report.failure.empty()) {
+    NoCavity none = failed(mesh.cavity, report.failure + ": the grid is deformed too much around the tube; choose a smaller radius");
+    if (!report.tubes_at_fault.empty()) {
+      none.wells.clear();
+      for (const std::size_t t : report.tubes_at_fault) none.wells.push_back(mesh.cavity.tubes[t].well);
+    }
+    return none;
+  }
   map_back(mapping, sites, diagram, mesh);
   count(diagram, mesh);
   mesh.faces = std::move(diagram.faces);

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/build_mesh.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "model/errors.h"
+#include "model/mesh_check.h"
+#include "readers/read_case.h"
+#include "readers/read_trajectory.h"
+#include "tests/support/grids.h"
+#include "tests/support/near_well.h"
+
+namespace wellknit {
+namespace {
+
+using near_well::Path;
+
+/// Violations beyond cells that no point sees whole: those are counted in the summary and allowed where the grid is strongly deformed.
+std::vector<Violation> violations_of(const Mesh& mesh, bool may_hide) {
+  std::vector<Violation> out;
+  for (const Violation& v : check_mesh(mesh))
+    if (!(may_hide && v.check == "made cell not seen from its centre")) out.push_back(v);
+  return out;
+}
+
+std::string first(const std::vector<Violation>& violations) {
+  return violations.empty() ? "" : fmt::format("{} violations, first: {} {} {}", violations.size(), violations[0].check, violations[0].entity, violations[0].detail);
+}
+
+TEST(BuildMesh, IsValidForEveryDeformationAndKindOfWell) {
+  for (const double deformation : {0.0, 0.4, 0.8, 1.2, 1.6})
+    for (const Path path : {Path::vertical, Path::deviated, Path::curved, Path::horizontal}) {
+      const Case source = near_well::deformed(deformation);
+      const BuildResult result = build_mesh(source, {near_well::well(path, 12.0)}, {});
+      const WellSummary& well = result.summary.wells[0];
+      const std::string name = fmt::format("deformation {} path {}", deformation, static_cast<int>(path));
+      // At 1.6 the horizontal well comes too close to the folded top for its radius; it says so and keeps its host cells.
+      if (deformation < 1.5 || path != Path::horizontal) {
+        EXPECT_TRUE(well.meshed) << name << ": " << well.reason;
+      }
+      EXPECT_TRUE(well.meshed || well.index_connections > 0) << name;
+      EXPECT_EQ(first(violations_of(result.mesh, deformation > 0.5)), "") << name;
+      for (const CavitySummary& c : result.summary.cavities) {
+        EXPECT_EQ(c.boundary_faces, c.boundary_faces_found);
+        if (deformation <= 0.5) {
+          EXPECT_EQ(c.cells_not_seen_from_centre, 0) << name;
+        }
+      }
+    }
+}
+
+TEST(BuildMesh, InABoxGridTransitionFacesAreOrthogonalAndPlanar) {
+  for (const Path path : {Path::vertical, Path::deviated, Path::curved, Path::horizontal}) {
+    const Mesh mesh = build_mesh(near_well::deformed(0.0), {near_well::well(path, 12.0)}, {}).mesh;
+    const auto& c = mesh.connections;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const ConnectionId id(i);
+      const auto [a, b] = c.cells[id];
+      if (mesh.cells.kind[a] != CellKind::transition || mesh.cells.kind[b] != CellKind::transition || c.area[id] < 1e-6) continue;
+      EXPECT_LT(c.non_orthogonality[id], 1e-4);
+      EXPECT_LT(c.planarity[id], 1e-9);
+    }
+  }
+}
+
+TEST(BuildMesh, RadialCellsFillTheTube) {
+  // Ten sectors: a polygon of area 5 R^2 sin 36 degrees, less the bore's own polygon, over the length of the tube.
+  const BuildResult result = build_mesh(near_well::deformed(0.0), {near_well::well(Path::vertical, 12.0)}, {});
+  double volume = 0.0;
+  for (std::size_t c = 0; c < result.mesh.cells.size(); ++c)
+    if (result.mesh.cells.kind[CellId(c)] == CellKind::radial) volume += result.mesh.cells.volume[CellId(c)];
+  const double polygon = 5.0 * std::sin(0.2 * 3.14159265358979324) * (12.0 * 12.0 - 0.1 * 0.1);
+  EXPECT_NEAR(volume / (polygon * 180.0), 1.0, 1e-9);  // 12 layers of 15 m
+}
+
+TEST(BuildMesh, WellsThatTouchShareACavity) {
+  const Case source = near_well::deformed(0.5);
+  Well one = near_well::straight("A", {380.0, 400.0, 1700.0}, {380.0, 400.0, 2500.0});
+  Well two = near_well::straight("B", {460.0, 400.0, 1700.0}, {460.0, 400.0, 2500.0});
+  Well far = near_well::straight("C", {140.0, 140.0, 1700.0}, {140.0, 140.0, 2500.0});
+  for (Well* w : {&one, &two, &far}) {
+    w->radial.drainage_radius = 8.0;
+    w->radial.mode = MeshMode::layered;
+  }
+  const BuildResult result = build_mesh(source, {one, two, far}, {});
+  for (const WellSummary& w : result.summary.wells) EXPECT_TRUE(w.meshed) << w.name << ": " << w.reason;
+  EXPECT_EQ(result.summary.wells[0].cavity, result.summary.wells[1].cavity);
+  EXPECT_NE(result.summary.wells[0].cavity, result.summary.wells[2].cavity);
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, MixesLayeredAndSweptWellsInOneCavity) {
+  const Case source = near_well::deformed(0.3);
+  Well steep = near_well::straight("S", {400.0, 330.0, 1700.0}, {400.0, 330.0, 2500.0});
+  Well flat = near_well::straight("F", {330.0, 400.0, 2075.0}, {480.0, 410.0, 2078.0});
+  steep.radial.drainage_radius = flat.radial.drainage_radius = 8.0;
+  steep.radial.mode = MeshMode::layered;
+  const BuildResult result = build_mesh(source, {steep, flat}, {});
+  for (const WellSummary& w : result.summary.wells) EXPECT_TRUE(w.meshed) << w.name << ": " << w.reason;
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, OfAMirroredGridIsValidToo) {
+  for (const Path path : {Path::vertical, Path::curved, Path::horizontal}) {
+    Case source = near_well::deformed(0.5);
+    Well well = near_well::well(path, 12.0);
+    for (std::size_t i = 1; i < source.grid.coord.size(); i += 3) source.grid.coord[i] = -source.grid.coord[i];  // y of every pillar point
+    for (Vec3& p : well.trajectory.points) p.y() = -p.y();
+    const BuildResult result = build_mesh(source, {well}, {});
+    EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
+    EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+  }
+}
+
+TEST(BuildMesh, AWellThroughAFaultKeepsItsHostCells) {
+  Case source;
+  source.grid = grids::faulted({12, 12, 8}, 3.0);
+  Well well = near_well::straight("F", {20.0, 120.0, 1018.0}, {100.0, 121.0, 1019.0});  // the fault is the plane x = 60
+  well.radial.drainage_radius = 4.0;
+  const BuildResult result = build_mesh(source, {well}, {});
+  const WellSummary& summary = result.summary.wells[0];
+  EXPECT_FALSE(summary.meshed);
+  EXPECT_EQ(summary.mode, "host cells");
+  EXPECT_NE(summary.reason.find("fault"), std::string::npos) << summary.reason;
+  EXPECT_EQ(summary.index_connections, summary.connections);
+  EXPECT_GE(summary.connections, 8);  // eight cells of 10 m along 80 m
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, OneBadWellDoesNotStopTheOthers) {
+  const Case source = near_well::deformed(0.5);
+  Well good = near_well::well(Path::curved, 12.0);
+  Well bad = near_well::straight("B", {120.0, 120.0, 2060.0}, {160.0, 130.0, 2061.0});
+  bad.radial.drainage_radius = 400.0;
+  const BuildResult result = build_mesh(source, {good, bad}, {});
+  EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
+  EXPECT_FALSE(result.summary.wells[1].meshed);
+  EXPECT_FALSE(result.summary.wells[1].reason.empty());
+  EXPECT_GT(result.summary.wells[1].index_connections, 0);
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, WithoutWellsIsTheHostAlone) {
+  const Case source = near_well::deformed(0.5);
+  const BuildResult result = build_mesh(source, {}, {});
+  EXPECT_EQ(static_cast<std::int64_t>(result.mesh.cells.size()), source.grid.cell_count());
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, RefusesAWellOutsideOfTheGrid) {
+  const Case source = near_well::deformed(0.0);
+  EXPECT_THROW(build_mesh(source, {near_well::straight("O", {1e5, 1e5, 2000.0}, {1e5, 1e5, 2100.0})}, {}), InvalidInput);
+}
+
+TEST(BuildMesh, RefusesTwoWellsOfOneName) {
+  const Well well = near_well::well(Path::curved, 12.0);
+  EXPECT_THROW(build_mesh(near_well::deformed(0.0), {well, well}, {}), InvalidInput);
+}
+
+TEST(BuildMesh, EveryStepIsTimed) {
+  const BuildResult result = build_mesh(near_well::deformed(0.0), {near_well::well(Path::curved, 12.0)}, {});
+  EXPECT_GE(result.summary.times.size(), 5U);
+}
+
+/// A file of the public data, or empty.
+std::string shared_file(const std::string& name) {
+  const std::string path = std::string(WELLKNIT_SHARED) + "/data/" + name;
+  return std::filesystem::exists(path) ? path : "";
+}
+
+TEST(BuildMesh, MeshesAllWellsOfSpe9) {
+  const std::string path = shared_file("spe9/SPE9_CP.DATA");
+  if (path.empty()) GTEST_SKIP() << "the public data are not here";
+  const Case source = read_case(path);
+  std::vector<Well> wells = source.deck_wells;
+  for (Well& w : wells) {
+    w.radial.drainage_radius = 30.0;
+    w.radial.sectors = 6;  // the shape of the mesh does not depend on it, the time does
+  }
+  const BuildResult result = build_mesh(source, wells, {});
+  ASSERT_EQ(result.summary.wells.size(), 26U);
+  for (const WellSummary& w : result.summary.wells) EXPECT_EQ(w.mode, "layered") << w.name << ": " << w.reason;
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+TEST(BuildMesh, MeshesTheNearWellExampleOfMrst) {
+  const std::string deck = shared_file("nwm/NWM.data");
+  const std::string csv = shared_file("nwm/trajectory.csv");
+  if (deck.empty() || csv.empty()) GTEST_SKIP() << "the public data are not here";
+  const Case source = read_case(deck);
+  auto wells = read_trajectory(csv).wells;
+  wells[0].radial.drainage_radius = 3.0;
+  const BuildResult result = build_mesh(source, wells, {});
+  EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
+}  // namespace
+}  // namespace wellknit

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/power_diagram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "algorithm/cavity_mapping.h"
+#include "tests/support/near_well.h"
+
+namespace wellknit {
+namespace {
+
+struct Diagram {
+  Cavity cavity;
+  Sites sites;
+  PowerDiagram diagram;
+};
+
+Diagram diagram_of(double deformation, near_well::Path path, double radius = 12.0) {
+  const Case source = near_well::deformed(deformation);
+  const HostMesh host = build_host_mesh(source.grid);
+  const CellLocator locator(source.grid);
+  const ReferenceSpace space(source.grid, host, CellRange{{0, 0, 0}, source.grid.dimensions});
+  const HostFrame frame{source.grid, host, locator, space};
+  const Well well = near_well::well(path, radius);
+  const auto samples = path_in_reference(frame, well);
+  auto tube = path == near_well::Path::vertical ? build_layered_tube(frame, well, samples) : build_swept_tube(frame, well, samples);
+  if (auto* none = std::get_if<NoTube>(&tube)) throw std::runtime_error(none->reason);
+  auto cavity = build_cavity(frame, {std::get<Tube>(tube)}, {});
+  if (auto* none = std::get_if<NoCavity>(&cavity)) throw std::runtime_error(none->reason);
+  Diagram out{std::get<Cavity>(cavity), {}, {}};
+  out.sites = place_sites(out.cavity);
+  out.diagram = build_power_diagram(out.cavity, out.sites);
+  return out;
+}
+
+const std::vector<std::pair<double, near_well::Path>> settings{{0.0, near_well::Path::vertical}, {0.0, near_well::Path::horizontal},
+                                                               {0.0, near_well::Path::curved},   {0.3, near_well::Path::vertical},
+                                                               {0.6, near_well::Path::deviated}, {1.0, near_well::Path::curved}};
+
+TEST(PowerDiagram, GivesBackEveryBoundaryFaceAsTheSameVertexSet) {
+  for (const auto& [deformation, path] : settings) {
+    const Diagram d = diagram_of(deformation, path);
+    ASSERT_EQ(d.diagram.failure, "");
+    const BoundaryMatch match = match_boundary(d.cavity, d.sites, d.diagram);
+    EXPECT_EQ(match.found, static_cast<std::int64_t>(d.cavity.faces.size()));
+    EXPECT_EQ(match.foreign, 0);
+    EXPECT_LT(match.volume_error, 1e-12);
+  }
+}
+
+TEST(PowerDiagram, EverySiteHasNonNegativePowerAtEveryBoundaryVertex) {
+  // The premise of the theorem in method.md §8.
+  for (const auto& [deformation, path] : settings) {
+    const Diagram d = diagram_of(deformation, path);
+    for (const auto* sites : {&d.sites.inner, &d.sites.outer})
+      for (const Site& s : *sites)
+        for (const CavityVertex& v : d.cavity.vertices) EXPECT_GE((v.reference - s.center).squaredNorm() - s.weight, -1e-8 * s.weight);
+    EXPECT_EQ(d.sites.not_centred, 0);
+  }
+}
+
+TEST(PowerDiagram, FacesArePlanarAndNormalToTheLineOfTheirSites) {
+  for (const auto& [deformation, path] : settings) {
+    const Diagram d = diagram_of(deformation, path);
+    double scale = 0.0;
+    for (const BoundaryFace& f : d.cavity.faces) scale = std::max(scale, f.radius);
+    for (const DiagramFace& f : d.diagram.faces) {
+      if (f.other_kind != DiagramFace::Other::inner) continue;
+      std::vector<Vec3> points;
+      for (const auto v : f.loop) points.push_back(d.diagram.vertices[static_cast<std::size_t>(v)]);
+      const PolygonGeometry g = polygon_geometry(points);
+      if (g.area < 1e-6 * scale * scale) continue;  // rounding rules the normal of a sliver
+      const Vec3 line = d.sites.inner[static_cast<std::size_t>(f.other)].center - d.sites.inner[static_cast<std::size_t>(f.cell)].center;
+      EXPECT_LT(g.area_vector.cross(line).norm() / (g.area * line.norm()), 2e-6);  // 1e-4 degrees
+      EXPECT_GT(g.area_vector.dot(line), 0.0);
+      EXPECT_LT(planarity(points, g), 1e-8);
+    }
+  }
+}
+
+TEST(PowerDiagram, CellsAreClosedAndFollowEuler) {
+  for (const auto& [deformation, path] : settings) {
+    const Diagram d = diagram_of(deformation, path);
+    struct Counts {
+      std::set<std::int32_t> vertices;
+      std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
+      int faces = 0;
+    };
+    std::vector<Counts> cells(d.sites.inner.size());
+    for (const DiagramFace& f : d.diagram.faces)
+      for (const bool is_other : {false, true}) {
+        if (is_other && f.other_kind != DiagramFace::Other::inner) continue;
+        Counts& c = cells[static_cast<std::size_t>(is_other ? f.other : f.cell)];
+        ++c.faces;
+        for (std::size_t i = 0; i < f.loop.size(); ++i) {
+          const std::int32_t a = f.loop[i];
+          const std::int32_t b = f.loop[(i + 1) % f.loop.size()];
+          c.vertices.insert(a);
+          ++c.edges[is_other ? std::pair(b, a) : std::pair(a, b)];
+        }
+      }
+    for (const Counts& c : cells) {
+      for (const auto& [edge, count] : c.edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_TRUE(c.edges.contains({edge.second, edge.first}));
+      }
+      EXPECT_EQ(static_cast<int>(c.vertices.size()) - static_cast<int>(c.edges.size()) / 2 + c.faces, 2);  // V - E + F
+    }
+  }
+}
+
+TEST(CavityMapping, OfABoxGridIsTheIdentity) {
+  const Diagram d = diagram_of(0.0, near_well::Path::curved);
+  const CavityMapping mapping(d.cavity, MappingMethod::automatic);
+  EXPECT_EQ(mapping.report().failure, "");
+  EXPECT_EQ(mapping.report().inverted_first, 0);
+  const Vec3 shift = d.cavity.vertices[0].real - d.cavity.vertices[0].reference;
+  for (const Vec3& v : d.diagram.vertices)
+    EXPECT_LT((mapping.to_real(v) - v - shift).norm(), 1e-7);  // barycentric coordinates in flat tetrahedra
+}
+
+TEST(CavityMapping, IsUntangledByBothMethods) {
+  for (const MappingMethod method : {MappingMethod::automatic, MappingMethod::paper}) {
+    const Diagram d = diagram_of(1.3, near_well::Path::horizontal);
+    const CavityMapping mapping(d.cavity, method);
+    EXPECT_EQ(mapping.report().failure, "");
+    EXPECT_GT(mapping.report().inverted_first, 0) << "the setting is too gentle to test untangling";
+    EXPECT_EQ(mapping.report().inverted_last, 0);
+    EXPECT_GT(mapping.report().smallest_ratio, 0.0);
+    EXPECT_GE(mapping.report().points_inserted, 1);
+  }
+}
+
+TEST(CavityMapping, KeepsTheBoundaryVertices) {
+  const Diagram d = diagram_of(1.0, near_well::Path::curved);
+  const CavityMapping mapping(d.cavity, MappingMethod::automatic);
+  for (const CavityVertex& v : d.cavity.vertices) EXPECT_LT((mapping.to_real(v.reference) - v.real).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace wellknit
