@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// The main job on the shipped example, part by part. The limit that each part is measured against stands beside it in one run:
-/// reading against the pass over the same bytes alone, the mesh with wells against the host alone.
+/// The main job on the shipped example, part by part. The limit that each part is measured against stands beside it in
+/// one run: reading against the pass over the same bytes alone, the mesh with wells against the host alone.
 
 #include <benchmark/benchmark.h>
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <toml++/toml.h>
 
 #include "cli/usage_error.h"
 
@@ -152,8 +152,8 @@ using Kind = BuildOption::Kind;
 
 constexpr std::array options{
     BuildOption{"well", "FILE[,key=value...]",
-                "A trajectory; keys: name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin", Kind::list,
-                [](BuildRequest& r, const std::string& v) { r.wells.push_back(parse_well(v)); }},
+                "A trajectory; keys: name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin",
+                Kind::list, [](BuildRequest& r, const std::string& v) { r.wells.push_back(parse_well(v)); }},
     BuildOption{"deck-wells", "all|NAME,...", "Wells of the deck's own schedule", Kind::value,
                 [](BuildRequest& r, const std::string& v) {
                   for (const std::string& name : split(not_empty(v, "all or names of wells"), ',')) {
@@ -163,7 +163,8 @@ constexpr std::array options{
     BuildOption{"grid-include", "FILE", "A further GRDECL file, read after CASE", Kind::list,
                 [](BuildRequest& r, const std::string& v) { r.grid_includes.push_back(not_empty(v, "a file")); }},
     BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
-    BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value, set_default<"bore">},
+    BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value,
+                set_default<"bore">},
     BuildOption{"sectors", "N", "Cells around a well [10]", Kind::value, set_default<"sectors">},
     BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5]", Kind::value, set_default<"rings">},
     BuildOption{"growth", "RATIO", "Ratio of successive ring widths [radii in geometric progression]", Kind::value,
@@ -173,7 +174,9 @@ constexpr std::array options{
     BuildOption{"mode", "auto|layered|swept", "How the radial mesh follows the well [auto]", Kind::value,
                 set_default<"mode">},
     BuildOption{"refine", "auto|off", "Refinement of the host; this version never refines", Kind::value,
-                [](BuildRequest&, const std::string& v) { accept_only(v, {"auto", "off"}, "a number of levels is"); }},
+                [](BuildRequest&, const std::string& v) {
+                  accept_only(v, {"auto", "off"}, "a number of levels is");
+                }},
     BuildOption{"fault-policy", "stop", "What a well does at a fault: it stops", Kind::value,
                 [](BuildRequest&, const std::string& v) { accept_only(v, {"stop"}, "heal is"); }},
     BuildOption{"metric", "geometric", "Metric of the reference space", Kind::value,
@@ -270,7 +273,8 @@ void set_well_key(WellRequest& well, std::string_view key, const std::string& va
     well.skin = number<double>(value, "a number");
   } else {
     throw UsageError(fmt::format(
-        "unknown key '{}'; the keys are name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin", key));
+        "unknown key '{}'; the keys are name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin",
+        key));
   }
 }
 
@@ -280,7 +284,8 @@ WellRequest parse_well(const std::string& text) {
   std::size_t first_key = 1;
   well.file = parts[0];
   // A part without '=' belongs to the file's name.
-  while (first_key < parts.size() && parts[first_key].find('=') == std::string::npos) well.file += "," + parts[first_key++];
+  while (first_key < parts.size() && parts[first_key].find('=') == std::string::npos)
+    well.file += "," + parts[first_key++];
   if (well.file.empty()) throw UsageError(fmt::format("expected FILE[,key=value...], found '{}'", text));
   for (std::size_t i = first_key; i < parts.size(); ++i) {
     const std::size_t equal = parts[i].find('=');
@@ -311,7 +316,8 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
 
 void validate(const BuildRequest& request) {
   if (!request.case_path) throw UsageError("no CASE given: name a deck, a grid or a run file");
-  if (!request.output && request.writes.empty()) throw UsageError("no output given: add -o OUT.h5 or --write FORMAT=PATH");
+  if (!request.output && request.writes.empty())
+    throw UsageError("no output given: add -o OUT.h5 or --write FORMAT=PATH");
   for (const WellRequest& well : request.wells) {
     const RadialOptions radial = resolve(well.radial, request.radial, RadialOptions{});
     if (radial.bore_radius >= radial.drainage_radius) {

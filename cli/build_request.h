@@ -87,7 +87,8 @@ void validate(const BuildRequest& request);
 /// The options of a well's radial mesh: the well's own choice, else the choice for all, else what `start` has.
 RadialOptions resolve(const RadialChoice& own, const RadialChoice& all, const RadialOptions& start);
 
-/// What determines the mesh, as a run file: the same mesh comes from it on any machine. Outputs and threads are left out.
+/// What determines the mesh, as a run file: the same mesh comes from it on any machine. Outputs and threads are left
+/// out.
 std::string config_text(const BuildRequest& request);
 
 std::string_view name_of(MeshMode mode);

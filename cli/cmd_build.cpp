@@ -31,7 +31,8 @@ namespace wellknit {
 
 namespace {
 
-/// Options that change neither the mesh nor its wells: they stay out of the mesh file, so that it is the same for all of them.
+/// Options that change neither the mesh nor its wells: they stay out of the mesh file, so that it is the same for all
+/// of them.
 constexpr std::array outside_the_mesh{"output", "write", "threads", "overwrite", "quiet", "json", "strict"};
 
 class Stopwatch {
@@ -68,7 +69,8 @@ void add_option(CLI::App& app, const BuildOption& option, const std::shared_ptr<
   const std::string name = option.name == std::string_view("output") ? "-o,--output" : fmt::format("--{}", option.name);
   const auto set = [given, &option](const std::string& value) { set_from_command_line(*given, option, value); };
   if (option.kind == BuildOption::Kind::flag) {
-    app.add_flag_callback(name, [set] { set("true"); }, option.description);
+    app.add_flag_callback(
+        name, [set] { set("true"); }, option.description);
   } else if (option.kind == BuildOption::Kind::value) {
     app.add_option_function<std::string>(name, set, option.description)->type_name(option.placeholder);
   } else {
@@ -113,8 +115,9 @@ void apply(const WellRequest& request, const BuildRequest& all, Well& well) {
   const std::vector<double>& md = well.trajectory.measured_depth;
   const MeasuredDepthRange open{request.from.value_or(md.front()), request.to.value_or(md.back())};
   if (open.from >= open.to || open.to <= md.front() || open.from >= md.back()) {
-    throw InvalidInput(fmt::format("{}: no part of the path is open to flow: from={} m to={} m, but its measured depth goes from {} to {} m",
-                                   request.file, open.from, open.to, md.front(), md.back()));
+    throw InvalidInput(fmt::format(
+        "{}: no part of the path is open to flow: from={} m to={} m, but its measured depth goes from {} to {} m",
+        request.file, open.from, open.to, md.front(), md.back()));
   }
   well.open = {open};
 }
@@ -140,8 +143,9 @@ std::vector<Well> chosen_deck_wells(const BuildRequest& request, const Case& sou
   for (const std::string& name : request.deck_wells) {
     const auto same = [&](const Well& well) { return well.name == name; };
     if (!all && std::ranges::none_of(source.deck_wells, same)) {
-      const std::string names = std::accumulate(source.deck_wells.begin(), source.deck_wells.end(), std::string(),
-                                                [](const std::string& text, const Well& w) { return text + " " + w.name; });
+      const std::string names =
+          std::accumulate(source.deck_wells.begin(), source.deck_wells.end(), std::string(),
+                          [](const std::string& text, const Well& w) { return text + " " + w.name; });
       throw InvalidInput(fmt::format("{}: --deck-wells: no well {}; its wells are{}", *request.case_path, name, names));
     }
   }
@@ -149,22 +153,26 @@ std::vector<Well> chosen_deck_wells(const BuildRequest& request, const Case& sou
     if (!all && std::ranges::find(request.deck_wells, well.name) == request.deck_wells.end()) continue;
     well.radial = resolve(RadialChoice{}, request.radial, well.radial);
     if (well.radial.bore_radius >= well.radial.drainage_radius) {
-      throw InvalidInput(fmt::format("well {}: its bore radius {} m is not below the drainage radius {} m; raise --radius or give --bore",
-                                     well.name, well.radial.bore_radius, well.radial.drainage_radius));
+      throw InvalidInput(fmt::format(
+          "well {}: its bore radius {} m is not below the drainage radius {} m; raise --radius or give --bore",
+          well.name, well.radial.bore_radius, well.radial.drainage_radius));
     }
     chosen.push_back(std::move(well));
   }
   return chosen;
 }
 
-/// A tube that is wider than the whole grid is a slip in the options (feet, millimetres), not a well that happens not to fit.
+/// A tube that is wider than the whole grid is a slip in the options (feet, millimetres), not a well that happens not
+/// to fit.
 void require_room(const CornerPointGrid& grid, const std::vector<Well>& wells) {
   Eigen::AlignedBox2d plan;
-  for (std::size_t i = 0; i + 2 < grid.coord.size(); i += 3) plan.extend(Eigen::Vector2d(grid.coord[i], grid.coord[i + 1]));
+  for (std::size_t i = 0; i + 2 < grid.coord.size(); i += 3)
+    plan.extend(Eigen::Vector2d(grid.coord[i], grid.coord[i + 1]));
   for (const Well& well : wells) {
     if (2.0 * well.radial.drainage_radius < plan.sizes().minCoeff()) continue;
-    throw InvalidInput(fmt::format("well {}: a tube of radius {} m is larger than the grid, which is {:.6g} m by {:.6g} m; give a smaller radius",
-                                   well.name, well.radial.drainage_radius, plan.sizes().x(), plan.sizes().y()));
+    throw InvalidInput(fmt::format(
+        "well {}: a tube of radius {} m is larger than the grid, which is {:.6g} m by {:.6g} m; give a smaller radius",
+        well.name, well.radial.drainage_radius, plan.sizes().x(), plan.sizes().y()));
   }
 }
 
@@ -193,7 +201,8 @@ Inputs read_inputs(const BuildRequest& request) {
   std::set<std::string> names;
   for (const Well& well : in.wells) {
     if (!names.insert(well.name).second) {
-      throw InvalidInput(fmt::format("two wells are named {}; give one of them another with --well FILE,name=NAME", well.name));
+      throw InvalidInput(
+          fmt::format("two wells are named {}; give one of them another with --well FILE,name=NAME", well.name));
     }
   }
   return in;

@@ -56,8 +56,9 @@ CheckResult examine(const Mesh& mesh, const std::vector<Limit>& limits) {
 
 std::string to_text(const CheckRequest& request, const CheckResult& result) {
   const std::size_t count = result.violations.size();
-  std::string text = count == 0 ? fmt::format("{}: valid\n", request.mesh)
-                                : fmt::format("{}: not valid: {} violation{}\n", request.mesh, count, count == 1 ? "" : "s");
+  std::string text = count == 0
+                         ? fmt::format("{}: valid\n", request.mesh)
+                         : fmt::format("{}: not valid: {} violation{}\n", request.mesh, count, count == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(count, violations_shown); ++i) {
     const Violation& violation = result.violations[i];
     text += fmt::format("  {}: {}: {}\n", violation.entity, violation.check, violation.detail);
@@ -65,7 +66,8 @@ std::string to_text(const CheckRequest& request, const CheckResult& result) {
   if (count > violations_shown) text += fmt::format("  and {} more\n", count - violations_shown);
   if (result.has_quality) text += result.quality.to_text();
   for (const PassedLimit& passed : result.passed) {
-    text += fmt::format("limit passed: {} is {:.6g}, the limit is {:.6g}\n", passed.limit.name, passed.value, passed.limit.value);
+    text += fmt::format("limit passed: {} is {:.6g}, the limit is {:.6g}\n", passed.limit.name, passed.value,
+                        passed.limit.value);
   }
   return text;
 }
@@ -80,12 +82,14 @@ std::string to_json(const CheckRequest& request, const CheckResult& result) {
   json["violations"] = Json::array();
   for (std::size_t i = 0; i < std::min(result.violations.size(), violations_shown); ++i) {
     const Violation& violation = result.violations[i];
-    json["violations"].push_back({{"check", violation.check}, {"entity", violation.entity}, {"detail", violation.detail}});
+    json["violations"].push_back(
+        {{"check", violation.check}, {"entity", violation.entity}, {"detail", violation.detail}});
   }
   if (result.has_quality) json["quality"] = Json::parse(result.quality.to_json());
   json["passed_limits"] = Json::array();
   for (const PassedLimit& passed : result.passed) {
-    json["passed_limits"].push_back({{"name", passed.limit.name}, {"value", passed.value}, {"limit", passed.limit.value}});
+    json["passed_limits"].push_back(
+        {{"name", passed.limit.name}, {"value", passed.value}, {"limit", passed.limit.value}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -102,7 +106,8 @@ int check(const CheckRequest& request) {
 Run add_check(CLI::App& app) {
   const auto request = std::make_shared<CheckRequest>();
   app.add_option("MESH", request->mesh, "A mesh file (HDF5)")->required()->type_name("FILE");
-  app.add_option("--limits", request->limits, "A TOML file of `figure = limit` lines; a figure past its limit makes exit 1")
+  app.add_option("--limits", request->limits,
+                 "A TOML file of `figure = limit` lines; a figure past its limit makes exit 1")
       ->type_name("FILE");
   app.add_flag("--json", request->json, "As JSON");
   app.footer("Exit code 1: the mesh is not valid, a limit is passed, or the file cannot be read.");

@@ -70,7 +70,8 @@ std::string plain_table(const char* title, const std::vector<Row>& rows) {
 std::string markdown_rows(const char* way, const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
-    const std::string name = row.document.empty() ? row.name : fmt::format("[{}](docs/formats/{})", row.name, row.document);
+    const std::string name =
+        row.document.empty() ? row.name : fmt::format("[{}](docs/formats/{})", row.name, row.document);
     text += fmt::format("| {} | {} | `{}` | {} |\n", way, name, row.extensions, row.description);
   }
   return text;

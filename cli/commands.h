@@ -12,7 +12,8 @@
 
 namespace wellknit {
 
-/// Runs a command whose options have been read; returns the exit code 0 or 1. Throws what the library throws, and UsageError.
+/// Runs a command whose options have been read; returns the exit code 0 or 1. Throws what the library throws, and
+/// UsageError.
 using Run = std::function<int()>;
 
 Run add_build(CLI::App& app);
@@ -24,8 +25,8 @@ Run add_formats(CLI::App& app);
 class Program {
  public:
   Program();
-  /// Reads the command line and runs its command. Throws CLI::ParseError (also for --help and --version), UsageError, and what
-  /// the library throws.
+  /// Reads the command line and runs its command. Throws CLI::ParseError (also for --help and --version), UsageError,
+  /// and what the library throws.
   int run(int argc, const char* const* argv);
   CLI::App& app() { return *app_; }
 

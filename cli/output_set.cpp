@@ -71,7 +71,8 @@ std::vector<WrittenFile> OutputSet::write(const Mesh& mesh, const Provenance& pr
     files.push_back(std::make_unique<OutputFile>(output.path, overwrite_ ? Overwrite::allow : Overwrite::refuse));
     const std::string& temporary = files.back()->temporary_path();
     const auto notes = format_named(output.format).write(mesh, provenance, temporary, Overwrite::allow);
-    written.push_back({output.format, output.path, static_cast<std::int64_t>(std::filesystem::file_size(temporary)), notes});
+    written.push_back(
+        {output.format, output.path, static_cast<std::int64_t>(std::filesystem::file_size(temporary)), notes});
   }
   // Every byte is on the disk: what is left is to give the names.
   AllOrNone named;

@@ -31,7 +31,8 @@ std::string counted(std::int64_t count, const char* noun) {
 }
 
 double total_seconds(const std::vector<StepTime>& times) {
-  return std::accumulate(times.begin(), times.end(), 0.0, [](double sum, const StepTime& t) { return sum + t.seconds; });
+  return std::accumulate(times.begin(), times.end(), 0.0,
+                         [](double sum, const StepTime& t) { return sum + t.seconds; });
 }
 
 /// The cavity that the well lies in; its figures are shared with the other wells of that cavity.
@@ -76,7 +77,8 @@ void write_shared_cavities(Text out, const BuildSummary& build) {
     for (const WellSummary& other : build.wells) {
       if (first_of_cavity(build, other) == &well) others += (others.empty() ? "" : ", ") + other.name;
     }
-    if (!others.empty()) fmt::format_to(out, "  {}: its row has the figures of the one cavity it shares with {}\n", well.name, others);
+    if (!others.empty())
+      fmt::format_to(out, "  {}: its row has the figures of the one cavity it shares with {}\n", well.name, others);
   }
 }
 
@@ -87,8 +89,8 @@ void write_wells(Text out, const BuildReport& report) {
   }
   std::size_t width = 4;
   for (const WellSummary& well : report.build.wells) width = std::max(width, well.name.size());
-  fmt::format_to(out, "{:{}}  {:10} {:>7} {:>7} {:>10} {:>6} {:>8} {:>5} {:>6} {:>11}\n", "wells", width + 2, "mode", "removed",
-                 "refined", "transition", "radial", "inverted", "loops", "points", "connections");
+  fmt::format_to(out, "{:{}}  {:10} {:>7} {:>7} {:>10} {:>6} {:>8} {:>5} {:>6} {:>11}\n", "wells", width + 2, "mode",
+                 "removed", "refined", "transition", "radial", "inverted", "loops", "points", "connections");
   for (const WellSummary& well : report.build.wells) write_well_row(out, report, well, width);
   write_shared_cavities(out, report.build);
   for (const WellSummary& well : report.build.wells) write_well_notes(out, well);
@@ -115,8 +117,9 @@ void write_quality(Text out, const QualityReport& quality) {
     const PairQuality& pair = quality.pairs[i];
     if (pair.faces == 0) continue;
     fmt::format_to(out, "  {:15} {:>6} {:>9.2f} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2g} {:>9.2g}\n",
-                   name_of(static_cast<FacePair>(i)), pair.faces, pair.non_orthogonality.mean, pair.non_orthogonality.max,
-                   pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max, pair.planarity.mean, pair.planarity.max);
+                   name_of(static_cast<FacePair>(i)), pair.faces, pair.non_orthogonality.mean,
+                   pair.non_orthogonality.max, pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max,
+                   pair.planarity.mean, pair.planarity.max);
   }
 }
 
@@ -174,8 +177,8 @@ Json json_of(const CavitySummary& cavity) {
 std::string to_text(const BuildReport& report) {
   std::string text;
   const Text out(text);
-  fmt::format_to(out, "case        {}: {} x {} x {} cells\n", report.case_path, report.dimensions[0], report.dimensions[1],
-                 report.dimensions[2]);
+  fmt::format_to(out, "case        {}: {} x {} x {} cells\n", report.case_path, report.dimensions[0],
+                 report.dimensions[1], report.dimensions[2]);
   write_wells(out, report);
   write_cavities(out, report);
   write_mesh(out, report);
@@ -184,7 +187,8 @@ std::string to_text(const BuildReport& report) {
   for (const std::string& note : report.build.notes) fmt::format_to(out, "note        {}\n", note);
   write_times(out, report);
   for (const WrittenFile& file : report.files) {
-    fmt::format_to(out, "wrote       {} ({}, {:.1f} MB)\n", file.path, file.format, static_cast<double>(file.bytes) / 1e6);
+    fmt::format_to(out, "wrote       {} ({}, {:.1f} MB)\n", file.path, file.format,
+                   static_cast<double>(file.bytes) / 1e6);
     for (const std::string& note : file.notes) fmt::format_to(out, "  {}\n", note);
   }
   return text;
@@ -208,7 +212,8 @@ std::string to_json(const BuildReport& report) {
   json["seconds"] = total_seconds(report.times);
   json["outputs"] = Json::array();
   for (const WrittenFile& file : report.files) {
-    json["outputs"].push_back({{"format", file.format}, {"path", file.path}, {"bytes", file.bytes}, {"notes", file.notes}});
+    json["outputs"].push_back(
+        {{"format", file.format}, {"path", file.path}, {"bytes", file.bytes}, {"notes", file.notes}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

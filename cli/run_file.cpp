@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "cli/usage_error.h"
 #include "model/errors.h"
@@ -52,13 +52,14 @@ void read_well(const Place& place, BuildRequest& request) {
   const toml::table* entry = place.node.as_table();
   if (entry == nullptr) place.fail("expected a table: [[well]] with file = and keys");
   WellRequest well;
-  for (const auto& [key, node] : *entry) {
-    const Place here{place.file, node, fmt::format("well.{}", key.str())};
+  for (const auto& [name, node] : *entry) {
+    const std::string key(name.str());
+    const Place here{place.file, node, "well." + key};
     const std::string value = spelled(here);
     if (key == "file") {
       well.file = value;
     } else {
-      set_at(here, [&] { set_well_key(well, key.str(), value); });
+      set_at(here, [&] { set_well_key(well, key, value); });
     }
   }
   if (well.file.empty()) place.fail("expected file = \"…\" with the well's trajectory");
@@ -69,7 +70,8 @@ void read_writes(const Place& place, BuildRequest& request) {
   const toml::table* formats = place.node.as_table();
   if (formats == nullptr) place.fail("expected a table: [write] with FORMAT = \"PATH\"");
   for (const auto& [format, node] : *formats) {
-    request.writes.push_back({std::string(format.str()), spelled({place.file, node, fmt::format("write.{}", format.str())})});
+    request.writes.push_back(
+        {std::string(format.str()), spelled({place.file, node, fmt::format("write.{}", format.str())})});
   }
 }
 
@@ -82,7 +84,8 @@ void read_option(const Place& place, BuildRequest& request) {
     set_at(place, [&] { option->set(request, spelled(place)); });
     return;
   }
-  if (option->kind != BuildOption::Kind::list && place.key != "deck-wells") place.fail("expected one value, found a list");
+  if (option->kind != BuildOption::Kind::list && place.key != "deck-wells")
+    place.fail("expected one value, found a list");
   for (const toml::node& node : *list) {
     const Place here{place.file, node, place.key};
     set_at(here, [&] { option->set(request, spelled(here)); });
