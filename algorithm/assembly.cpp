@@ -25,11 +25,9 @@ class Assembler {
     for (const TransitionMesh& c : cavities_)
       for (const Tube& t : c.cavity.tubes) add_radial_cells(t);
     add_host_faces();
-    std::size_t first_tube = 0;
-    for (std::size_t c = 0; c < cavities_.size(); ++c) {
-      add_cavity(c, first_tube);
-      first_tube += cavities_[c].cavity.tubes.size();
-    }
+    out_.first_tube.push_back(0);
+    for (const TransitionMesh& c : cavities_) out_.first_tube.push_back(out_.first_tube.back() + c.cavity.tubes.size());
+    for (std::size_t c = 0; c < cavities_.size(); ++c) add_cavity(c, out_.first_tube[c]);
     set_made_geometry();
     out_.mesh.source_dimensions = grid_.dimensions;
     out_.mesh.mapaxes = grid_.mapaxes;
@@ -174,6 +172,7 @@ class Assembler {
       info.is_fault = host_.faces.is_fault[f];
       info.is_pinch = host_.faces.is_pinch[f];
       info.host = {a, b};
+      info.host_face = f;
       add_face(loop, first, second, info);
     }
   }

@@ -28,6 +28,7 @@ struct FaceInfo {
   Axis axis = Axis::i;                  ///< role host
   std::uint8_t is_fault = 0;            ///< role host
   std::uint8_t is_pinch = 0;            ///< role host
+  FaceId host_face;                     ///< role host between two host cells: the host mesh's face
   std::int32_t circle = -1;             ///< roles ring, lateral: circle of the radial mesh, bore 0
   std::array<HostCellId, 2> host{};     ///< role host: the source cells on the sides of cells[0] and cells[1]; a removed one on the
                                         ///< side of a transition cell
@@ -51,6 +52,7 @@ struct Assembly {
   IdVector<HostCellId, CellId> cell_of;     ///< mesh cell of each source cell that stayed; invalid for the others
   std::vector<PlacedTube> tubes;            ///< in the order of the cavities and their tubes
   std::vector<std::int64_t> first_transition_cell;  ///< per cavity
+  std::vector<std::size_t> first_tube;              ///< cavities + 1 offsets into tubes
 };
 
 /// Cells are numbered: host cells in the source's order, transition cells by cavity, radial cells by tube. `cavities` must outlive the

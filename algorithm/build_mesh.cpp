@@ -72,7 +72,7 @@ class Builder {
     clock_.lap("assembly");
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
-    connect_cells(grid_, assembly);
+    connect_cells(grid_, host_, assembly);
     add_wells(assembly);
     clock_.lap("connections");
     for (const TransitionMesh& c : cavities_) result_.summary.cavities.push_back(c.summary);

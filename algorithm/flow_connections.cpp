@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "algorithm/host_transmissibility.h"
+#include "algorithm/radial_flow.h"
 
 namespace wellknit {
 
@@ -44,7 +45,8 @@ double linear_half(const Vec3& k, const Vec3& d, const Vec3& area_vector) {
 
 class Connector {
  public:
-  Connector(const CornerPointGrid& grid, Assembly& assembly) : grid_(grid), assembly_(assembly), mesh_(assembly.mesh) {
+  Connector(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly)
+      : grid_(grid), host_(host), assembly_(assembly), mesh_(assembly.mesh), radial_flow_(assembly) {
     for (const PlacedTube& t : assembly.tubes) {
       const auto& m = t.tube->real;
       tube_end_.push_back(t.first_cell.value() + static_cast<std::int64_t>(m.segments) * m.sectors * m.rings);
@@ -66,8 +68,10 @@ class Connector {
     const bool is_swapped = b < a;
     const HalfFace first{a, g.centroid, g.area_vector, info, {a, b}};
     const HalfFace second{b, g.centroid, -g.area_vector, info, {a, b}};
-    const double t1 = half(first);
-    const double t2 = half(second);
+    const bool is_transition = mesh_.cells.kind[a] == CellKind::transition && mesh_.cells.kind[b] == CellKind::transition;
+    const double factor = is_transition ? radial_flow_.factor(a, b, points) : 1.0;
+    const double t1 = factor * half(first);
+    const double t2 = factor * half(second);
     Connections& c = mesh_.connections;
     c.cells.push_back(is_swapped ? std::array{b, a} : std::array{a, b});
     c.face.push_back(face);
@@ -122,7 +126,9 @@ class Connector {
     const HostCellId own = mesh_.cells.source_cell[h.cell];
     const HostCellId other = h.info.host[0] == own ? h.info.host[1] : h.info.host[0];
     const auto a = static_cast<std::size_t>(h.info.axis);
-    return host_half_transmissibility(grid_, own, h.info.axis, grid_.ijk(other)[a] > grid_.ijk(own)[a], h.area_vector);
+    // Simulators leave the crossings on a top's or base's edges out of its area.
+    const Vec3 area = h.info.host_face.is_valid() ? host_face_area_vector(host_, h.info.host_face) : h.area_vector;
+    return host_half_transmissibility(grid_, own, h.info.axis, grid_.ijk(other)[a] > grid_.ijk(own)[a], area);
   }
 
   [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {
@@ -168,8 +174,10 @@ class Connector {
   }
 
   const CornerPointGrid& grid_;
+  const HostMesh& host_;
   Assembly& assembly_;
   Mesh& mesh_;
+  RadialFlow radial_flow_;
   std::vector<std::int64_t> tube_end_;  ///< one past the last cell of each tube
 };
 
@@ -186,7 +194,7 @@ double equal_area_radius(double radius, int sectors) {
   return radius * std::sqrt(std::sin(angle) / angle);
 }
 
-void connect_cells(const CornerPointGrid& grid, Assembly& assembly) { Connector(grid, assembly).connect(); }
+void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly) { Connector(grid, host, assembly).connect(); }
 
 double open_length(const Well& well, double from, double to) {
   if (well.open.empty()) return to - from;

@@ -129,7 +129,7 @@ TEST(CavityMapping, OfABoxGridIsTheIdentity) {
 
 TEST(CavityMapping, IsUntangledByBothMethods) {
   for (const MappingMethod method : {MappingMethod::automatic, MappingMethod::paper}) {
-    const Diagram d = diagram_of(1.3, near_well::Path::horizontal);
+    const Diagram d = diagram_of(2.0, near_well::Path::curved);
     const CavityMapping mapping(d.cavity, method);
     EXPECT_EQ(mapping.report().failure, "");
     EXPECT_GT(mapping.report().inverted_first, 0) << "the setting is too gentle to test untangling";
