@@ -72,6 +72,7 @@ class Builder {
     clock_.lap("assembly");
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
+    note_empty_cells(assembly.mesh);
     connect_cells(grid_, host_, assembly);
     add_wells(assembly);
     clock_.lap("connections");
@@ -292,20 +293,26 @@ class Builder {
   void mesh_clusters() {
     std::vector<std::optional<TransitionMesh>> meshes(clusters_.size());
     for (std::size_t c = 0; c < clusters_.size(); ++c) meshes[c] = mesh_cluster(clusters_[c]);
-    for (std::size_t a = 0; a < clusters_.size(); ++a)
-      for (std::size_t b = a + 1; b < clusters_.size(); ++b) {
-        if (!meshes[a] || !meshes[b] || !do_touch(clusters_[a], clusters_[b])) continue;
-        join(clusters_[a], clusters_[b]);
-        clusters_[b] = {};
-        meshes[b].reset();
-        meshes[a] = mesh_cluster(clusters_[a]);
-        b = a;
-      }
+    while (const auto pair = touching_meshes(meshes)) {
+      const auto [a, b] = *pair;
+      join(clusters_[a], clusters_[b]);
+      clusters_[b] = {};
+      meshes[b].reset();
+      meshes[a] = mesh_cluster(clusters_[a]);
+    }
     for (std::size_t c = 0; c < clusters_.size(); ++c) {
       if (!meshes[c]) continue;
-      for (const Tube& t : meshes[c]->cavity.tubes) note_meshed(t, cavities_.size());
+      for (const Tube& t : meshes[c]->cavity.tubes) note_meshed(t, cavities_.size(), meshes[c]->summary);
       cavities_.push_back(std::move(*meshes[c]));
     }
+  }
+
+  /// The first two meshed clusters whose cavities touch. Each merge leaves one cluster less, so that looking again ends.
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> touching_meshes(const std::vector<std::optional<TransitionMesh>>& meshes) const {
+    for (std::size_t a = 0; a < meshes.size(); ++a)
+      for (std::size_t b = a + 1; b < meshes.size(); ++b)
+        if (meshes[a] && meshes[b] && do_touch(clusters_[a], clusters_[b])) return std::pair(a, b);
+    return std::nullopt;
   }
 
   std::optional<TransitionMesh> mesh_cluster(Cluster& cluster) {
@@ -325,7 +332,7 @@ class Builder {
     return std::nullopt;
   }
 
-  void note_meshed(const Tube& tube, std::size_t cavity) {
+  void note_meshed(const Tube& tube, std::size_t cavity, const CavitySummary& cavity_summary) {
     WellSummary& s = result_.summary.wells[tube.well];
     s.meshed = true;
     s.reason.clear();
@@ -334,9 +341,21 @@ class Builder {
     s.segments = tube.real.segments;
     s.radial_cells = static_cast<std::int64_t>(tube.real.segments) * tube.real.sectors * tube.real.rings;
     s.notes = tube.notes;
+    if (const auto count = cavity_summary.outer_nodes_left_out; count > 0)
+      s.notes.push_back(fmt::format("{} nodes of the grid's top, base or sides within its cavity are not followed: they would contradict the tube there", count));
+  }
+
+  /// Made cells without pores stand in inactive rock: right, but the user should know.
+  void note_empty_cells(const Mesh& mesh) {
+    if (grid_.porosity.empty()) return;
+    std::int64_t count = 0;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      count += mesh.cells.kind[CellId(c)] >= CellKind::transition && !(mesh.cells.pore_volume[CellId(c)] > 0.0) ? 1 : 0;
+    if (count > 0) result_.summary.notes.push_back(fmt::format("{} made cells lie wholly in inactive rock or rock without pores", count));
   }
 
   void add_wells(Assembly& assembly) {
+    WellConnector connector(grid_, host_, *locator_, assembly);
     for (std::size_t w = 0; w < wells_.size(); ++w) {
       const Well& well = wells_[w];
       WellSummary& summary = result_.summary.wells[w];
@@ -348,7 +367,7 @@ class Builder {
       out.type = well.type;
       out.reference_depth = well.reference_depth;
       try {
-        WellConnections connections = connect_well(grid_, host_, *locator_, assembly, w, well);
+        WellConnections connections = connector.connect(w, well);
         summary.index_connections = connections.by_index;
         out.connections = std::move(connections.all);
       } catch (const InvalidInput& e) {

@@ -50,6 +50,7 @@ struct CavitySummary {
   std::int64_t inverted_tetrahedra = 0;  ///< before the correction of the mapping
   std::int64_t loops = 0;
   std::int64_t points_inserted = 0;
+  std::int64_t outer_nodes_left_out = 0;  ///< nodes of the grid's outside above or beside the cavity that the mapping does not follow
   std::int64_t cells_not_seen_from_centre = 0;
 };
 

@@ -385,16 +385,17 @@ void remove_at_node(const Node& n, RemovedCells& removed) {
 }
 
 /// One face that is not admissible: removes what is in its way. Returns a reason when nothing can be removed.
-std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cavity, const BoundaryFace& face, RemovedCells& removed) {
+std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cavity, const BoundaryFace& face, const CavityOptions& options,
+                                  RemovedCells& removed) {
   if (face.kind == BoundaryFaceKind::host) {
     removed.add(grid.ijk(face.outside_cell));
     return std::nullopt;
   }
-  const bool is_high = face.high_vertex >= 0;
+  const bool is_high = face.t_high < least_t_high(face, options);
   const std::int32_t culprit = is_high ? face.high_vertex : face.low_vertex;
   const std::size_t well = cavity.tubes[face.tube].well;
   if (culprit < 0)
-    return NoCavity{"the tube touches the outside of the grid: choose a smaller radius", {well}};
+    return NoCavity{"the tube comes too close to the top, base or a side of the grid: choose a smaller radius", {well}};
   const CavityVertex& v = cavity.vertices[static_cast<std::size_t>(culprit)];
   if (v.is_host) {
     remove_at_node(v.node, removed);
@@ -406,6 +407,24 @@ std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cav
 }
 
 std::string cell_name(const Cell& c) { return fmt::format("({}, {}, {})", c[0] + 1, c[1] + 1, c[2] + 1); }
+
+/// The host's faces on the cavity's wall must have just their four corners: one that carries more, cut by a fault next to it, would not meet
+/// the cavity's face edge by edge. So must those on the grid's outside that share an edge with the wall; they belong to kept cells, and the extra
+/// vertex then is on a wall's face too.
+std::optional<std::string> check_walls(const HostFrame& frame, const RemovedCells& removed) {
+  const HostFaces& faces = frame.host.faces;
+  for (std::size_t index = 0; index < faces.size(); ++index) {
+    const auto [a, b] = faces.cells[FaceId(index)];
+    if (!b.is_valid()) continue;
+    const Cell one = frame.grid.ijk(a);
+    const Cell two = frame.grid.ijk(b);
+    if (removed.contains(one) == removed.contains(two)) continue;
+    if (faces.loop(FaceId(index)).size() != 4 || faces.is_fault[FaceId(index)] != 0)
+      return fmt::format("a fault beside cells {} and {} puts vertices on the cavity's wall; this is not handled yet: choose a smaller radius",
+                         cell_name(one), cell_name(two));
+  }
+  return std::nullopt;
+}
 
 /// Every cell of the cavity and every kept cell at its boundary must see one vertex at each node: no fault and no pinch-out.
 std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCells& removed, const Cavity& cavity, HostNodes& nodes) {
@@ -424,7 +443,7 @@ std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCell
           return fmt::format("a fault or a gap between cells {} and {} lies on the cavity's wall; this is not handled yet: choose a smaller radius",
                              cell_name(c), cell_name(outside));
     }
-  return std::nullopt;
+  return check_walls(frame, removed);
 }
 
 /// Nodes of the footprint on the mirror planes that no boundary face uses.
@@ -471,6 +490,42 @@ void set_reference_volume(const HostFrame& frame, Cavity& cavity) {
     cavity.reference_volume += (box.high - box.low).prod();
   }
   for (const Tube& t : cavity.tubes) cavity.reference_volume -= tube_volume(t.reference);
+}
+
+/// Least distance of two segments, by their ends and by the interior minimum.
+double segment_distance(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  const Vec3 u = q - p;
+  const Vec3 v = s - r;
+  const Vec3 w = p - r;
+  const double a = u.squaredNorm();
+  const double b = u.dot(v);
+  const double c = v.squaredNorm();
+  const double det = a * c - b * b;
+  const auto on = [](double t) { return std::clamp(t, 0.0, 1.0); };
+  double best = std::numeric_limits<double>::infinity();
+  const auto trial = [&](double t, double x) { best = std::min(best, (p + on(t) * u - r - on(x) * v).norm()); };
+  if (det > 1e-12 * a * c) trial((b * v.dot(w) - c * u.dot(w)) / det, (a * v.dot(w) - b * u.dot(w)) / det);
+  trial(0.0, v.dot(w) / c);
+  trial(1.0, v.dot(q - r) / c);
+  trial(-u.dot(w) / a, 0.0);
+  trial(u.dot(s - p) / a, 1.0);
+  return best;
+}
+
+/// Two tubes that overlap: the later well gives way.
+std::optional<NoCavity> overlapping_tubes(const std::vector<Tube>& tubes) {
+  for (std::size_t a = 0; a < tubes.size(); ++a)
+    for (std::size_t b = a + 1; b < tubes.size(); ++b) {
+      const double least = tubes[a].reference_radius + tubes[b].reference_radius;
+      const auto& one = tubes[a].reference.axis;
+      const auto& two = tubes[b].reference.axis;
+      for (std::size_t i = 0; i + 1 < one.size(); ++i)
+        for (std::size_t j = 0; j + 1 < two.size(); ++j)
+          if (const double d = segment_distance(one[i], one[i + 1], two[j], two[j + 1]); d < least)
+            return NoCavity{fmt::format("its tube overlaps another well's: their paths come within {:.1f} m where the two radii need {:.1f} m; choose smaller "
+                                        "radii", d, least), {std::max(tubes[a].well, tubes[b].well)}};
+    }
+  return std::nullopt;
 }
 
 void make_closed(const HostFrame& frame, const std::vector<Tube>& tubes, RemovedCells& removed) {
@@ -523,6 +578,7 @@ void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<Cavit
 }
 
 std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes, const CavityOptions& options) {
+  if (auto overlap = overlapping_tubes(tubes)) return *overlap;
   Cavity cavity;
   cavity.tubes = std::move(tubes);
   RemovedCells removed(frame.grid);
@@ -541,7 +597,7 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
     const std::int64_t before = removed.count();
     for (const BoundaryFace& f : cavity.faces)
       if (!is_good(f, options))
-        if (auto reason = make_room(frame.grid, cavity, f, removed)) return *reason;
+        if (auto reason = make_room(frame.grid, cavity, f, options, removed)) return *reason;
     if (removed.count() != before) continue;
     if (!std::all_of(cavity.faces.begin(), cavity.faces.end(), [&](const BoundaryFace& f) { return is_good(f, options); }))
       return NoCavity{"the tube comes too close to a corner of the cavity that cannot be removed: choose a smaller radius", all_wells(cavity)};

@@ -73,7 +73,8 @@ class CavityMapping::Implementation {
     CellHandle c = delaunay_.locate(cgal_point(x), hint_);
     hint_ = c;
     if (is_inside(c)) return interpolate(c, x);
-    return interpolate(nearest_inside(c, x), x);
+    const CellHandle near = nearest_inside(c, x);
+    return near != CellHandle() ? interpolate(near, x) : x;
   }
 
  private:
@@ -101,7 +102,12 @@ class CavityMapping::Implementation {
     fixed_ = reference_.size();
     for (std::size_t n = 0; n < cavity_.plane_nodes.size(); ++n) {
       const PlaneNode& node = cavity_.plane_nodes[n];
-      if (is_left_out_[n] != 0 || !reserve_room(node.reference)) continue;
+      if (is_left_out_[n] != 0) continue;
+      if (!reserve_room(node.reference)) {
+        is_left_out_[n] = 1;
+        ++report_.plane_nodes_left_out;
+        continue;
+      }
       insert(node.reference, node.real);
       plane_node_of_.push_back(n);
       ++fixed_;
@@ -276,7 +282,8 @@ class CavityMapping::Implementation {
       if (inverted == 0) break;
       stalled = inverted < fewest ? 0 : stalled + 1;
       fewest = std::min(fewest, inverted);
-      if (stalled >= 8) break;
+      // Points that breed more inverted tetrahedra than they cure will not end well, and must not grow without bound.
+      if (stalled >= 8 || inverted > 20 * report_.inverted_first + 100) break;
       ++report_.loops;
       if (!insert_barycentres()) break;
       if (!label_and_collect()) return;
@@ -423,13 +430,17 @@ class CavityMapping::Implementation {
     return out;
   }
 
-  /// For points that rounding puts just outside: of the tetrahedra near by the one that the point is least outside of.
+  /// For points that rounding puts just outside: the nearest tetrahedron inside that holds the point to rounding, else of the first few
+  /// thousand the one that it is least outside of.
   [[nodiscard]] CellHandle nearest_inside(CellHandle start, const Vec3& x) const {
-    std::vector<CellHandle> seen{start};
+    constexpr double holds = -1e-9;  // barycentric coordinate
+    constexpr std::size_t most = 5000;
+    std::vector<CellHandle> queue{start};
+    std::set<const void*> seen{&*start};
     CellHandle best = nullptr;
     double best_value = -std::numeric_limits<double>::infinity();
-    for (std::size_t at = 0; at < seen.size() && seen.size() < 2000; ++at) {
-      const CellHandle c = seen[at];
+    for (std::size_t at = 0; at < queue.size() && at < most && best_value < holds; ++at) {
+      const CellHandle c = queue[at];
       if (is_inside(c)) {
         const auto b = barycentric(c, x);
         const double value = *std::min_element(b.begin(), b.end());
@@ -438,9 +449,8 @@ class CavityMapping::Implementation {
           best = c;
         }
       }
-      if (best != nullptr && seen.size() > 100) continue;
       for (int i = 0; i < 4; ++i)
-        if (std::find(seen.begin(), seen.end(), c->neighbor(i)) == seen.end()) seen.push_back(c->neighbor(i));
+        if (seen.insert(&*c->neighbor(i)).second) queue.push_back(c->neighbor(i));
     }
     return best;
   }

@@ -115,10 +115,11 @@ class Connector {
     const Vec3 n = h.area_vector.normalized();
     const double radius = (m.point(at.segment, m.rings, at.sector) - m.axis[static_cast<std::size_t>(at.segment)]).norm();
     const double theta = 2.0 * std::numbers::pi / m.sectors;
-    // The site stands off the chord by its distance along the normal; the circle that the outermost ring's half ends at has the polygon's area.
-    const double from_axis = radius * std::cos(0.5 * theta) + std::abs(n.dot(d));
-    const double ratio = std::max(from_axis / equal_area_radius(radius, m.sectors), 1.0 + 1e-6);
-    return n.dot(k.cwiseProduct(n)) * length_along_well(m, at, m.rings) * theta / std::log(ratio);
+    // The site stands off the chord by its distance along the normal. Very near the chord's middle it is inside the circle that the outermost
+    // ring's half ends at: half the linear drop is kept as the least.
+    const double distance = std::abs(n.dot(d));
+    const double drop = std::max(std::log((radius * std::cos(0.5 * theta) + distance) / radius), 0.5 * distance / radius);
+    return drop > 0.0 ? n.dot(k.cwiseProduct(n)) * length_along_well(m, at, m.rings) * theta / drop : 0.0;
   }
 
   /// Host cells see host faces only.
@@ -189,15 +190,12 @@ double mean_pressure_radius(double inner, double outer) {
   return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
 }
 
-double equal_area_radius(double radius, int sectors) {
-  const double angle = 2.0 * std::numbers::pi / sectors;
-  return radius * std::sqrt(std::sin(angle) / angle);
-}
-
 void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly) { Connector(grid, host, assembly).connect(); }
 
 double open_length(const Well& well, double from, double to) {
-  if (well.open.empty()) return to - from;
+  // Without intervals the whole path is open: a layered tube goes on beyond its ends.
+  if (well.open.empty())
+    return std::max(0.0, std::min(to, well.trajectory.measured_depth.back()) - std::max(from, well.trajectory.measured_depth.front()));
   double length = 0.0;
   for (const MeasuredDepthRange& o : well.open) length += std::max(0.0, std::min(to, o.to) - std::max(from, o.from));
   return std::min(length, to - from);
@@ -221,9 +219,8 @@ std::vector<WellConnection> connect_tube(const Mesh& mesh, const PlacedTube& pla
       const Vec3 n = (middle - 0.5 * (m.axis[station] + m.axis[station + 1])).normalized();
       const double length = 0.5 * ((m.point(k + 1, 0, s) - m.point(k, 0, s)).norm() + (m.point(k + 1, 0, s + 1) - m.point(k, 0, s + 1)).norm());
       const double permeability = n.dot(flow_permeability(mesh.cells, cell).cwiseProduct(n));
-      const double r0 = equal_area_radius(mean_pressure_radius(inner, outer), m.sectors);
       const double theta = 2.0 * std::numbers::pi / m.sectors;
-      const double resistance = std::log(r0 / inner) + well.skin;
+      const double resistance = std::log(mean_pressure_radius(inner, outer) / inner) + well.skin;
       if (!(permeability > 0.0) || !(resistance > 0.0)) continue;
       connections.push_back({cell, permeability * part * length * theta / resistance, {md0, md1}});
     }

@@ -17,14 +17,10 @@ void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& 
 /// ln r_0 = (r_2^2 ln r_2 - r_1^2 ln r_1) / (r_2^2 - r_1^2) - 1/2.
 double mean_pressure_radius(double inner, double outer);
 
-/// Radius of the circle with the area of a regular polygon whose vertices lie at `radius`, m: what the polygon's sectors do to
-/// radial flow, to first order.
-double equal_area_radius(double radius, int sectors);
-
 /// Connections of a tube's innermost cells over the open measured depths of its well: k L theta / (ln(r_0 / r_w) + skin).
 std::vector<WellConnection> connect_tube(const Mesh& mesh, const PlacedTube& tube, const Well& well);
 
-/// The part of [from, to] that is open, m.
+/// The part of measured depths [from, to] that is open, m: of the well's open stretches, or of its path where it has none.
 double open_length(const Well& well, double from, double to);
 
 }  // namespace wellknit

@@ -112,14 +112,14 @@ std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locato
 /// last: their sums are what conserves pore volume.
 void balance(std::vector<Overlap>& overlaps, const HostMesh& host, const Mesh& mesh) {
   std::vector<double> by_cell(mesh.cells.size());
-  std::map<HostCellId, double> by_source;
+  std::vector<double> by_source(host.volume.size());
   for (int round = 0; round < 30; ++round) {
     std::fill(by_cell.begin(), by_cell.end(), 0.0);
     for (const Overlap& o : overlaps) by_cell[o.cell.index()] += o.volume;
     for (Overlap& o : overlaps) o.volume *= mesh.cells.volume[o.cell] / by_cell[o.cell.index()];
-    by_source.clear();
-    for (const Overlap& o : overlaps) by_source[o.source] += o.volume;
-    for (Overlap& o : overlaps) o.volume *= host.volume[o.source] / by_source[o.source];
+    for (const Overlap& o : overlaps) by_source[o.source.index()] = 0.0;
+    for (const Overlap& o : overlaps) by_source[o.source.index()] += o.volume;
+    for (Overlap& o : overlaps) o.volume *= host.volume[o.source] / by_source[o.source.index()];
   }
 }
 
@@ -178,7 +178,9 @@ struct Sums {
   double porosity = 0.0;
   double net_to_gross = 0.0;
   double pore_volume = 0.0;
-  Vec3 permeability = Vec3::Zero();  ///< arithmetic along x and y
+  double net_bulk = 0.0;             ///< m3
+  Vec3 permeability = Vec3::Zero();  ///< of net rock, arithmetic along x and y: times the mean net-to-gross it is the mean of k * ntg
+  Vec3 gross_permeability = Vec3::Zero();
   double resistance = 0.0;           ///< volume over vertical permeability
 };
 
@@ -201,7 +203,9 @@ void set_properties(const CornerPointGrid& grid, const HostMesh& host, Assembly&
       s.porosity += v * porosity;
       s.net_to_gross += v * ntg;
       s.pore_volume += v * porosity * ntg;
-      s.permeability += v * k;
+      s.net_bulk += v * ntg;
+      s.permeability += v * ntg * k;
+      s.gross_permeability += v * k;
       s.resistance += k.z() > 0.0 ? v / k.z() : std::numeric_limits<double>::infinity();
     }
   }
@@ -217,7 +221,8 @@ void set_properties(const CornerPointGrid& grid, const HostMesh& host, Assembly&
     cells.pore_volume[cell] = s.pore_volume;
     cells.porosity[cell] = s.porosity / s.bulk;
     cells.net_to_gross[cell] = s.net_to_gross / s.bulk;
-    cells.permeability[cell] = {s.permeability.x() / s.bulk, s.permeability.y() / s.bulk, s.bulk / s.resistance};
+    const Vec3 lateral = s.net_bulk > 0.0 ? Vec3(s.permeability / s.net_bulk) : Vec3(s.gross_permeability / s.bulk);
+    cells.permeability[cell] = {lateral.x(), lateral.y(), s.bulk / s.resistance};
   }
 }
 

@@ -54,8 +54,9 @@ class ReferenceSpace {
   std::array<std::vector<double>, 3> planes_;
 };
 
-/// Coordinates of E_ref and of the sites are multiples of this, m: reflections in the planes are then exact in doubles up to 2^18 m.
-inline constexpr double reference_resolution = 0x1p-34;
+/// Coordinates of E_ref and of the sites are multiples of this, m: reflections in the planes are then exact in doubles up to 2^14 m from the
+/// middle of a cavity, and the faces of the smallest cells (0.1 m, at a bore) are planar to 1e-10.
+inline constexpr double reference_resolution = 0x1p-38;
 
 /// Nearest multiple of reference_resolution.
 double on_reference_lattice(double value);

@@ -17,11 +17,8 @@ namespace {
 
 constexpr int most_dilations = 2;
 
-NoCavity failed(const Cavity& cavity, std::string reason) {
-  NoCavity out{std::move(reason), {}};
-  for (const Tube& t : cavity.tubes) out.wells.push_back(t.well);
-  return out;
-}
+/// Of several wells the last one gives way, and the others try again.
+NoCavity failed(const Cavity& cavity, std::string reason) { return {std::move(reason), {cavity.tubes.back().well}}; }
 
 /// Faces of each cell, outward.
 std::vector<std::vector<OutwardFace>> faces_by_cell(const TransitionMesh& mesh) {
@@ -99,6 +96,7 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
   mesh.summary.inverted_tetrahedra = report.inverted_first;
   mesh.summary.loops = report.loops;
   mesh.summary.points_inserted = report.points_inserted;
+  mesh.summary.outer_nodes_left_out = report.plane_nodes_left_out;
   if (!report.failure.empty()) {
     NoCavity none = failed(mesh.cavity, report.failure + ": the grid is deformed too much around the tube; choose a smaller radius");
     if (!report.tubes_at_fault.empty()) {

@@ -22,47 +22,6 @@ namespace wellknit {
 
 namespace {
 
-/// Outward faces of made cells, made when first asked for.
-class MadeCells {
- public:
-  explicit MadeCells(const Mesh& mesh) : mesh_(mesh) {}
-
-  /// The made cell that holds a point of a removed source cell: of those with a share of it the one that the point is deepest in.
-  std::optional<CellId> at(HostCellId source, const Vec3& point) {
-    std::optional<CellId> best;
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (std::int64_t i = mesh_.transfer.start[source.index()]; i < mesh_.transfer.start[source.index() + 1]; ++i) {
-      const CellId cell = mesh_.transfer.cell[static_cast<std::size_t>(i)];
-      const double h = smallest_height(faces_of(cell), point);
-      if (h <= deepest) continue;
-      deepest = h;
-      best = cell;
-    }
-    return best;
-  }
-
- private:
-  const std::vector<OutwardFace>& faces_of(CellId cell) {
-    if (faces_.empty()) collect();
-    return faces_[cell.value()];
-  }
-
-  void collect() {
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-      const auto [a, b] = mesh_.faces.cells[FaceId(f)];
-      const bool is_made_a = mesh_.cells.kind[a] >= CellKind::transition;
-      const bool is_made_b = b.is_valid() && mesh_.cells.kind[b] >= CellKind::transition;
-      if (!is_made_a && !is_made_b) continue;
-      const PolygonGeometry g = face_geometry(mesh_, FaceId(f));
-      if (is_made_a) faces_[a.value()].push_back({g.mean, g.area_vector});
-      if (is_made_b) faces_[b.value()].push_back({g.mean, -g.area_vector});
-    }
-  }
-
-  const Mesh& mesh_;
-  std::unordered_map<std::int64_t, std::vector<OutwardFace>> faces_;
-};
-
 /// Length and mean direction of the path in a made cell.
 struct MadePart {
   Vec3 path = Vec3::Zero();
@@ -103,55 +62,98 @@ std::vector<MeasuredDepthRange> open_outside(const Well& well, const PlacedTube*
   return out;
 }
 
-/// Parts of the path in removed source cells, by made cell, cut into steps of at most a hundredth of the part.
-std::map<CellId, MadePart> made_parts(const Assembly& assembly, const std::vector<CellPart>& parts, const std::vector<MeasuredDepthRange>& open) {
-  MadeCells made(assembly.mesh);
-  std::map<CellId, MadePart> out;
-  for (const CellPart& part : parts) {
-    if (assembly.cell_of[part.cell].is_valid()) continue;
-    constexpr int steps = 100;
-    const double step = (part.measured_depth.to - part.measured_depth.from) / steps;
-    for (int s = 0; s < steps; ++s) {
-      const double md = part.measured_depth.from + (s + 0.5) * step;
-      if (std::none_of(open.begin(), open.end(), [&](const MeasuredDepthRange& o) { return o.from <= md && md <= o.to; })) continue;
-      const auto cell = made.at(part.cell, part.entry + (s + 0.5) / steps * (part.exit - part.entry));
-      if (!cell) continue;
-      auto [at, is_new] = out.emplace(*cell, MadePart{});
-      if (is_new) at->second.measured_depth = {md - 0.5 * step, md};
-      at->second.measured_depth.to = md + 0.5 * step;
-      at->second.path += (part.exit - part.entry) / steps;
-      at->second.length += (part.exit - part.entry).norm() / steps;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
-WellConnections connect_well(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly,
-                             std::size_t well_index, const Well& well) {
+/// Outward faces of made cells, made when first asked for.
+class WellConnector::MadeCells {
+ public:
+  explicit MadeCells(const Mesh& mesh) : mesh_(mesh) {}
+
+  /// The made cell that holds a point of a removed source cell: of those with a share of it the one that the point is deepest in.
+  std::optional<CellId> at(HostCellId source, const Vec3& point) {
+    std::optional<CellId> best;
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (std::int64_t i = mesh_.transfer.start[source.index()]; i < mesh_.transfer.start[source.index() + 1]; ++i) {
+      const CellId cell = mesh_.transfer.cell[static_cast<std::size_t>(i)];
+      const double h = smallest_height(faces_of(cell), point);
+      if (h <= deepest) continue;
+      deepest = h;
+      best = cell;
+    }
+    return best;
+  }
+
+  /// Parts of the path in removed source cells, by made cell, in steps of a hundredth of each part.
+  std::map<CellId, MadePart> parts_of(const Assembly& assembly, const std::vector<CellPart>& parts, const std::vector<MeasuredDepthRange>& open) {
+    std::map<CellId, MadePart> out;
+    for (const CellPart& part : parts) {
+      if (assembly.cell_of[part.cell].is_valid()) continue;
+      constexpr int steps = 100;
+      const double step = (part.measured_depth.to - part.measured_depth.from) / steps;
+      for (int s = 0; s < steps; ++s) {
+        const double md = part.measured_depth.from + (s + 0.5) * step;
+        if (std::none_of(open.begin(), open.end(), [&](const MeasuredDepthRange& o) { return o.from <= md && md <= o.to; })) continue;
+        const auto cell = at(part.cell, part.entry + (s + 0.5) / steps * (part.exit - part.entry));
+        if (!cell) continue;
+        auto [entry, is_new] = out.emplace(*cell, MadePart{});
+        if (is_new) entry->second.measured_depth = {md - 0.5 * step, md};
+        entry->second.measured_depth.to = md + 0.5 * step;
+        entry->second.path += (part.exit - part.entry) / steps;
+        entry->second.length += (part.exit - part.entry).norm() / steps;
+      }
+    }
+    return out;
+  }
+
+ private:
+  const std::vector<OutwardFace>& faces_of(CellId cell) {
+    if (faces_.empty()) collect();
+    return faces_[cell.value()];
+  }
+
+  void collect() {
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      const auto [a, b] = mesh_.faces.cells[FaceId(f)];
+      const bool is_made_a = mesh_.cells.kind[a] >= CellKind::transition;
+      const bool is_made_b = b.is_valid() && mesh_.cells.kind[b] >= CellKind::transition;
+      if (!is_made_a && !is_made_b) continue;
+      const PolygonGeometry g = face_geometry(mesh_, FaceId(f));
+      if (is_made_a) faces_[a.value()].push_back({g.mean, g.area_vector});
+      if (is_made_b) faces_[b.value()].push_back({g.mean, -g.area_vector});
+    }
+  }
+
+  const Mesh& mesh_;
+  std::unordered_map<std::int64_t, std::vector<OutwardFace>> faces_;
+};
+
+WellConnector::WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly)
+    : grid_(grid), host_(host), locator_(locator), assembly_(assembly), made_cells_(std::make_unique<MadeCells>(assembly.mesh)) {}
+WellConnector::~WellConnector() = default;
+
+WellConnections WellConnector::connect(std::size_t well_index, const Well& well) {
   WellConnections out;
   const PlacedTube* tube = nullptr;
-  for (const PlacedTube& t : assembly.tubes)
+  for (const PlacedTube& t : assembly_.tubes)
     if (t.tube->well == well_index) tube = &t;
-  if (tube != nullptr) out.all = connect_tube(assembly.mesh, *tube, well);
+  if (tube != nullptr) out.all = connect_tube(assembly_.mesh, *tube, well);
   if (tube != nullptr && tube->tube->layered) return out;  // its tube runs from top to base
   Well rest = well;
   rest.open = open_outside(well, tube);
   if (rest.open.empty()) return out;
-  const auto parts = cells_along(grid, locator, well.trajectory);
+  const auto parts = cells_along(grid_, locator_, well.trajectory);
   const bool is_from_deck = tube == nullptr && !well.completions.empty();
-  const auto kept = is_from_deck ? completion_indices(grid, host, well, parts) : peaceman_indices(grid, host, rest, parts);
+  const auto kept = is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, parts);
   for (const HostWellConnection& c : kept)
-    if (const CellId cell = assembly.cell_of[c.cell]; cell.is_valid()) out.all.push_back({cell, c.well_index, c.measured_depth});
-  for (const auto& [cell, part] : made_parts(assembly, parts, rest.open)) {
-    const double index = made_cell_index(assembly.mesh.cells, cell, part, well.radial.bore_radius, well.skin);
+    if (const CellId cell = assembly_.cell_of[c.cell]; cell.is_valid()) out.all.push_back({cell, c.well_index, c.measured_depth});
+  for (const auto& [cell, part] : made_cells_->parts_of(assembly_, parts, rest.open)) {
+    const double index = made_cell_index(assembly_.mesh.cells, cell, part, well.radial.bore_radius, well.skin);
     // The well's own radial cells belong to its tube's open part.
-    const bool is_own = assembly.mesh.cells.well[cell] == WellId(well_index);
+    const bool is_own = assembly_.mesh.cells.well[cell] == WellId(well_index);
     if (index > 0.0 && !is_own) out.all.push_back({cell, index, part.measured_depth});
   }
   std::int64_t radial = 0;
-  for (const WellConnection& c : out.all) radial += assembly.mesh.cells.well[c.cell] == WellId(well_index) ? 1 : 0;
+  for (const WellConnection& c : out.all) radial += assembly_.mesh.cells.well[c.cell] == WellId(well_index) ? 1 : 0;
   out.by_index = static_cast<std::int64_t>(out.all.size()) - radial;
   return out;
 }

@@ -5,6 +5,7 @@
 /// where the well runs through the cavity beyond its tube's ends.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "algorithm/assembly.h"
@@ -18,8 +19,24 @@ struct WellConnections {
   std::int64_t by_index = 0;         ///< of these, host and transition cells
 };
 
-/// Needs the mesh's permeabilities and transfer map. Throws InvalidInput where the bore is too wide, or the skin too low, for a cell.
-WellConnections connect_well(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly,
-                             std::size_t well_index, const Well& well);
+/// Connects one well after the other. Needs the mesh's permeabilities and transfer map; all references must outlive it.
+class WellConnector {
+ public:
+  WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly);
+  ~WellConnector();
+  WellConnector(const WellConnector&) = delete;
+  WellConnector& operator=(const WellConnector&) = delete;
+
+  /// Throws InvalidInput where the bore is too wide, or the skin too low, for a cell.
+  [[nodiscard]] WellConnections connect(std::size_t well_index, const Well& well);
+
+ private:
+  class MadeCells;
+  const CornerPointGrid& grid_;
+  const HostMesh& host_;
+  const CellLocator& locator_;
+  const Assembly& assembly_;
+  std::unique_ptr<MadeCells> made_cells_;
+};
 
 }  // namespace wellknit

@@ -26,6 +26,7 @@ constexpr double tilt_limit = 6.0 * std::numbers::pi / 180.0;
 constexpr double outside_gap = 0.5;          ///< of the drainage radius: least distance of a swept tube to the grid's outside
 constexpr double least_lateral_ratio = 0.5;  ///< method.md §3: the drainage radius is at most half the radius of curvature
 constexpr double least_reference_ratio = 0.2;
+constexpr int most_natural_segments = 500;  ///< of a swept tube when the user does not say: a longer one gets longer cells
 constexpr double least_layer_thickness = 1e-3;  ///< m, at the well; thinner ones count as pinched out
 
 // ---- layered ----------------------------------------------------------------------------------------------------------
@@ -301,6 +302,21 @@ std::vector<Vec3> even_stations(const Well& well, double from, double to, int se
   return stations;
 }
 
+/// Most rings whose trapezoids have their circumcentres inside: the ratio of radii must be above 1 / cos(2 pi / N) (method.md §3). 0: none.
+int most_rings(const RadialOptions& options) {
+  const double cosine = std::cos(2.0 * std::numbers::pi / options.sectors);
+  if (cosine < 0.4) return 0;
+  for (int rings = options.rings; rings > 0; --rings) {
+    RadialOptions trial = options;
+    trial.rings = rings;
+    const auto radii = circle_radii(trial);
+    bool fits = true;
+    for (std::size_t i = 0; i + 1 < radii.size(); ++i) fits = fits && radii[i + 1] / radii[i] * cosine > 1.001;
+    if (fits) return rings;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::vector<PathSample> path_in_reference(const HostFrame& frame, const Well& well) {
@@ -362,7 +378,12 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const st
     return NoTube{fmt::format("no stretch of one drainage radius ({:g} m) keeps {:g} m from the top, base and sides of the grid: choose a "
                               "smaller radius",
                               outer, (1.0 + outside_gap) * outer)};
-  const int segments = well.radial.segments.value_or(std::max(2, static_cast<int>(std::lround(length / outer))));
+  if (const int most = most_rings(well.radial); well.radial.rings > most)
+    return NoTube{most > 0 ? fmt::format("{} rings in {} sectors are too thin for the cells at the tube's ends to hold their centres: choose at most {} "
+                                         "rings, or more sectors", well.radial.rings, well.radial.sectors, most)
+                           : fmt::format("a swept tube needs 6 or more sectors, not {}", well.radial.sectors)};
+  const int natural_segments = std::clamp(static_cast<int>(std::lround(length / outer)), 2, most_natural_segments);
+  const int segments = well.radial.segments.value_or(natural_segments);
   const double from = path[stretch->first].measured_depth;
   const double to = path[stretch->last].measured_depth;
   const Sweep sweep = smooth_sweep(even_stations(well, from, to, segments));

@@ -33,14 +33,10 @@ TEST(FlowConnections, MeanPressureRadiusIsTheAreaMeanOfTheLogarithm) {
   EXPECT_NEAR(std::log(mean_pressure_radius(a, b)), mean, 1e-10);
 }
 
-TEST(FlowConnections, EqualAreaRadiusGivesThePolygonsArea) {
-  // A square with its corners at radius 1 has area 2.
-  EXPECT_NEAR(std::numbers::pi * std::pow(equal_area_radius(1.0, 4), 2), 2.0, 1e-12);
-}
-
 TEST(FlowConnections, OpenLengthAddsUpTheOverlaps) {
-  Well well;
+  Well well = near_well::straight("W", {0, 0, 0}, {0, 0, 100});
   EXPECT_DOUBLE_EQ(open_length(well, 10.0, 30.0), 20.0);
+  EXPECT_DOUBLE_EQ(open_length(well, 90.0, 130.0), 10.0);  // the path ends at 100 m
   well.open = {{0.0, 12.0}, {25.0, 26.0}, {29.0, 100.0}};
   EXPECT_DOUBLE_EQ(open_length(well, 10.0, 30.0), 2.0 + 1.0 + 1.0);
 }
