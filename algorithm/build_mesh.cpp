@@ -56,7 +56,9 @@ class Clock {
 class Builder {
  public:
   Builder(const Case& source, const std::vector<Well>& wells, const BuildOptions& options)
-      : grid_(source.grid), wells_(wells), options_(options), clock_(result_.summary.times) {}
+      : grid_(source.grid), given_(wells), wells_(wells), options_(options), clock_(result_.summary.times) {
+    for (Well& w : wells_) take_effective_radius(w);
+  }
 
   BuildResult build() {
     check_wells();
@@ -73,6 +75,7 @@ class Builder {
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
     note_empty_cells(assembly.mesh);
+    note_volumes(assembly);
     connect_cells(grid_, host_, assembly);
     add_wells(assembly);
     clock_.lap("connections");
@@ -82,6 +85,13 @@ class Builder {
   }
 
  private:
+  /// A negative skin is flow without resistance out to r_w e^-skin: the rings start there. A first ring thinner than that could not carry it.
+  static void take_effective_radius(Well& well) {
+    if (!(well.skin < 0.0)) return;
+    well.radial.bore_radius *= std::exp(-well.skin);
+    well.skin = 0.0;
+  }
+
   void check_wells() const {
     std::set<std::string> names;
     for (const Well& w : wells_) {
@@ -345,6 +355,31 @@ class Builder {
       s.notes.push_back(fmt::format("{} nodes of the grid's top, base or sides within its cavity are not followed: they would contradict the tube there", count));
   }
 
+  /// Where the mapping cannot follow the grid's outside the rock in a cavity gains or loses bulk volume. Its pore volume is kept.
+  void note_volumes(const Assembly& assembly) {
+    std::vector<double> made(cavities_.size(), 0.0);
+    const Cells& cells = assembly.mesh.cells;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const CellId cell(c);
+      if (cells.kind[cell] != CellKind::transition && cells.kind[cell] != CellKind::radial) continue;
+      const std::int32_t cavity = cells.well[cell].is_valid() ? result_.summary.wells[cells.well[cell].index()].cavity : cavity_of(assembly, cell);
+      made[static_cast<std::size_t>(cavity)] += cells.volume[cell];
+    }
+    for (std::size_t c = 0; c < cavities_.size(); ++c) {
+      double removed = 0.0;
+      for (const auto& r : cavities_[c].cavity.removed) removed += host_.volume[grid_.cell_id(r[0], r[1], r[2])];
+      // A thousandth: the chords of curved horizons and the bore stay below it.
+      if (const double change = made[c] / removed - 1.0; std::abs(change) > 1e-3)
+        result_.summary.notes.push_back(fmt::format("the bulk volume of cavity {} changes by {:+.2f} %: the top, base or sides of the grid are curved there and "
+                                                    "its cells follow them in chords; its pore volume is kept", c + 1, 100.0 * change));
+    }
+  }
+
+  static std::int32_t cavity_of(const Assembly& assembly, CellId transition) {
+    const auto& starts = assembly.first_transition_cell;
+    return static_cast<std::int32_t>(std::distance(starts.begin(), std::upper_bound(starts.begin(), starts.end(), transition.value()))) - 1;
+  }
+
   /// Made cells without pores stand in inactive rock: right, but the user should know.
   void note_empty_cells(const Mesh& mesh) {
     if (grid_.porosity.empty()) return;
@@ -362,7 +397,9 @@ class Builder {
       MeshWell out;
       out.name = well.name;
       out.trajectory = well.trajectory;
-      out.bore_radius = well.radial.bore_radius;
+      out.bore_radius = given_[w].radial.bore_radius;
+      if (given_[w].skin < 0.0)
+        summary.notes.push_back(fmt::format("its skin of {:g} is taken as an effective bore radius of {:.3g} m", given_[w].skin, well.radial.bore_radius));
       out.drainage_radius = summary.meshed ? well.radial.drainage_radius : 0.0;
       out.type = well.type;
       out.reference_depth = well.reference_depth;
@@ -380,7 +417,8 @@ class Builder {
   }
 
   const CornerPointGrid& grid_;
-  const std::vector<Well>& wells_;
+  const std::vector<Well>& given_;
+  std::vector<Well> wells_;  ///< as given; stimulated ones with their effective bores
   BuildOptions options_;
   BuildResult result_;
   Clock clock_;

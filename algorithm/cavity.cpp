@@ -44,6 +44,7 @@ class RemovedCells {
     }
     return true;
   }
+  [[nodiscard]] bool contains(HostCellId c) const { return mask_[c.index()] != 0; }
   [[nodiscard]] std::int64_t count() const { return count_; }
   /// In order of their ids.
   [[nodiscard]] std::vector<Cell> list() const {
@@ -415,13 +416,10 @@ std::optional<std::string> check_walls(const HostFrame& frame, const RemovedCell
   const HostFaces& faces = frame.host.faces;
   for (std::size_t index = 0; index < faces.size(); ++index) {
     const auto [a, b] = faces.cells[FaceId(index)];
-    if (!b.is_valid()) continue;
-    const Cell one = frame.grid.ijk(a);
-    const Cell two = frame.grid.ijk(b);
-    if (removed.contains(one) == removed.contains(two)) continue;
+    if (!b.is_valid() || removed.contains(a) == removed.contains(b)) continue;
     if (faces.loop(FaceId(index)).size() != 4 || faces.is_fault[FaceId(index)] != 0)
       return fmt::format("a fault beside cells {} and {} puts vertices on the cavity's wall; this is not handled yet: choose a smaller radius",
-                         cell_name(one), cell_name(two));
+                         cell_name(frame.grid.ijk(a)), cell_name(frame.grid.ijk(b)));
   }
   return std::nullopt;
 }
@@ -587,7 +585,10 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
   int dilations = options.dilation;
   for (cavity.rounds = 1;; ++cavity.rounds) {
     make_closed(frame, cavity.tubes, removed);
-    if (removed.count() > options.most_cells || cavity.rounds > most_rounds)
+    if (cavity.rounds > most_rounds)
+      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed): choose a smaller radius, or more segments", most_rounds,
+                                  removed.count()), all_wells(cavity)};
+    if (removed.count() > options.most_cells)
       return NoCavity{fmt::format("the cavity would swallow {} cells: the host's cells are too flat or too large for this radius and its "
                                   "refinement is not available yet; choose a smaller radius or refine the grid laterally near the well",
                                   removed.count()), all_wells(cavity)};

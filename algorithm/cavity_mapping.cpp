@@ -283,7 +283,7 @@ class CavityMapping::Implementation {
       stalled = inverted < fewest ? 0 : stalled + 1;
       fewest = std::min(fewest, inverted);
       // Points that breed more inverted tetrahedra than they cure will not end well, and must not grow without bound.
-      if (stalled >= 8 || inverted > 20 * report_.inverted_first + 100) break;
+      if (stalled >= 8 || inverted > 4 * fewest + 100 || reference_.size() > 2 * fixed_) break;
       ++report_.loops;
       if (!insert_barycentres()) break;
       if (!label_and_collect()) return;

@@ -113,7 +113,7 @@ class Connector {
     const RadialMesh& m = tube_of(radial).tube->real;
     const RadialIndex at = mesh_.cells.radial_index[radial];
     const Vec3 n = h.area_vector.normalized();
-    const double radius = (m.point(at.segment, m.rings, at.sector) - m.axis[static_cast<std::size_t>(at.segment)]).norm();
+    const double radius = circle_radius(*tube_of(radial).tube, at, m.rings);
     const double theta = 2.0 * std::numbers::pi / m.sectors;
     // The site stands off the chord by its distance along the normal. Very near the chord's middle it is inside the circle that the outermost
     // ring's half ends at: half the linear drop is kept as the least.
@@ -138,6 +138,12 @@ class Connector {
     return assembly_.tubes[t];
   }
 
+  /// Radius of a circle; in a layered tube it is a circle in plan on a horizon that may dip.
+  static double circle_radius(const Tube& tube, const RadialIndex& at, int circle) {
+    const Vec3 d = tube.real.point(at.segment, circle, at.sector) - tube.real.axis[static_cast<std::size_t>(at.segment)];
+    return tube.layered ? std::hypot(d.x(), d.y()) : d.norm();
+  }
+
   /// Mean distance of the two ends of a sector's face on a circle, m.
   static double length_along_well(const RadialMesh& m, const RadialIndex& at, int circle) {
     const auto edge = [&](int sector) { return (m.point(at.segment + 1, circle, sector) - m.point(at.segment, circle, sector)).norm(); };
@@ -149,9 +155,8 @@ class Connector {
     const RadialIndex at = mesh_.cells.radial_index[h.cell];
     const Vec3 n = h.area_vector.normalized();
     const double along_normal = n.dot(k.cwiseProduct(n));
-    const Vec3& axis = m.axis[static_cast<std::size_t>(at.segment)];
-    const double inner = (m.point(at.segment, at.ring, at.sector) - axis).norm();
-    const double outer = (m.point(at.segment, at.ring + 1, at.sector) - axis).norm();
+    const double inner = circle_radius(*tube_of(h.cell).tube, at, at.ring);
+    const double outer = circle_radius(*tube_of(h.cell).tube, at, at.ring + 1);
     const double theta = 2.0 * std::numbers::pi / m.sectors;
     switch (h.info.role) {
       case FaceRole::ring:

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace wellknit {
 
@@ -314,12 +315,14 @@ class DiagramBuilder {
         }
         loop.push_back(vertex_of_[static_cast<std::size_t>(c->info())]);
       } while (++c != end);
-      reduce(loop);
-      if (loop.size() < 3) continue;
-      if (!is_inner(a->info())) {
+      // Which end comes first and where the circulation starts depends on addresses: both are set by our own numbers.
+      if (!is_inner(a->info()) || (is_inner(b->info()) && b->info().site < a->info().site)) {
         std::swap(a, b);
         std::reverse(loop.begin(), loop.end());
       }
+      start_at_least(loop);
+      reduce(loop);
+      if (loop.size() < 3) continue;
       const Vec3 area = area_vector(loop);
       if (area.norm() > largest) {
         largest = area.norm();
@@ -331,6 +334,18 @@ class DiagramBuilder {
     }
     if (is_reversed)
       for (DiagramFace& f : diagram_.faces) std::reverse(f.loop.begin(), f.loop.end());
+    const auto key = [](const DiagramFace& f) { return std::tie(f.cell, f.other_kind, f.other, f.loop); };
+    std::sort(diagram_.faces.begin(), diagram_.faces.end(), [&](const DiagramFace& f, const DiagramFace& g) { return key(f) < key(g); });
+  }
+
+  /// Rotates a loop to the first of its rotations in lexicographical order.
+  static void start_at_least(std::vector<std::int32_t>& loop) {
+    std::vector<std::int32_t> best = loop;
+    for (std::size_t i = 1; i < loop.size(); ++i) {
+      std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+      if (loop < best) best = loop;
+    }
+    loop = std::move(best);
   }
 
   [[nodiscard]] Vec3 area_vector(const std::vector<std::int32_t>& loop) const {

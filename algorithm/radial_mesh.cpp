@@ -50,6 +50,9 @@ std::vector<double> circle_radii(const RadialOptions& options) {
   if (!(outer > bore)) throw InvalidInput("the drainage radius must be larger than the bore radius");
   if (options.sectors < 3) throw InvalidInput("a radial mesh needs 3 or more sectors");
   if (options.rings < 1) throw InvalidInput("a radial mesh needs one or more rings");
+  if (options.sectors > 360 || options.rings > 100 || options.segments.value_or(1) > 5000)
+    throw InvalidInput("a radial mesh has at most 360 sectors, 100 rings and 5000 segments");
+  if (options.segments.value_or(1) < 1) throw InvalidInput("a radial mesh needs one or more segments");
   const int n = options.rings;
   std::vector<double> radii(static_cast<std::size_t>(n) + 1);
   for (int i = 0; i <= n; ++i) {
@@ -64,6 +67,8 @@ std::vector<double> circle_radii(const RadialOptions& options) {
     }
   }
   radii.back() = outer;
+  for (std::size_t i = 1; i < radii.size(); ++i)
+    if (!(radii[i] > radii[i - 1])) throw InvalidInput("the rings' growth leaves some of them without width: choose a growth nearer to 1");
   return radii;
 }
 

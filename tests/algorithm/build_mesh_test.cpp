@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "model/errors.h"
 #include "model/mesh_check.h"
@@ -162,6 +163,64 @@ TEST(BuildMesh, RefusesAWellOutsideOfTheGrid) {
 TEST(BuildMesh, RefusesTwoWellsOfOneName) {
   const Well well = near_well::well(Path::curved, 12.0);
   EXPECT_THROW(build_mesh(near_well::deformed(0.0), {well, well}, {}), InvalidInput);
+}
+
+TEST(BuildMesh, IsTheSameWhateverStandsInMemory) {
+  // Addresses must not decide: builds with other allocations between them give the same faces, in the same order.
+  const Case source = near_well::deformed(0.7);
+  const std::vector<Well> wells{near_well::well(Path::curved, 12.0)};
+  const Mesh first_mesh = build_mesh(source, wells, {}).mesh;
+  std::vector<std::unique_ptr<std::vector<char>>> clutter;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 500; ++j) clutter.push_back(std::make_unique<std::vector<char>>(100 + 977 * ((i + 3 * j) % 50)));
+    for (std::size_t j = i; j < clutter.size(); j += 3) clutter[j].reset();
+    const Mesh mesh = build_mesh(source, wells, {}).mesh;
+    EXPECT_EQ(mesh.faces.vertices, first_mesh.faces.vertices);
+    EXPECT_EQ(mesh.connections.transmissibility.raw(), first_mesh.connections.transmissibility.raw());
+    EXPECT_EQ(mesh.vertices.raw(), first_mesh.vertices.raw());
+  }
+}
+
+TEST(BuildMesh, AStimulatedWellFlowsFromItsEffectiveRadius) {
+  Well well = near_well::well(Path::vertical, 12.0);
+  well.skin = -2.0;
+  const BuildResult result = build_mesh(near_well::deformed(0.0), {well}, {});
+  ASSERT_FALSE(result.mesh.wells[WellId(0)].connections.empty());
+  EXPECT_DOUBLE_EQ(result.mesh.wells[WellId(0)].bore_radius, 0.1);
+  ASSERT_FALSE(result.summary.wells[0].notes.empty());
+  EXPECT_NE(result.summary.wells[0].notes[0].find("0.739"), std::string::npos) << result.summary.wells[0].notes[0];  // 0.1 e^2
+}
+
+TEST(BuildMesh, AWellThatEndsInsideIsOpenToItsOwnLayersOnly) {
+  Well well = near_well::straight("E", {411.0, 389.0, 1990.0}, {411.0, 389.0, 2060.0});  // ends at the base of layer 4 of 12
+  well.radial.drainage_radius = 12.0;
+  const BuildResult result = build_mesh(near_well::deformed(0.0), {well}, {});
+  EXPECT_EQ(result.mesh.wells[WellId(0)].connections.size(), 4U * 10U);
+}
+
+TEST(BuildMesh, OfTwoWellsAtOnePlaceTheLaterGivesWay) {
+  const Well one = near_well::well(Path::vertical, 12.0);
+  Well two = one;
+  two.name = "twin";
+  const BuildResult result = build_mesh(near_well::deformed(0.3), {one, two}, {});
+  EXPECT_TRUE(result.summary.wells[0].meshed);
+  EXPECT_FALSE(result.summary.wells[1].meshed);
+  EXPECT_NE(result.summary.wells[1].reason.find("overlaps"), std::string::npos) << result.summary.wells[1].reason;
+}
+
+TEST(BuildMesh, AFaultsTipBesideTheWallIsNotCutOpen) {
+  // Columns beyond i = 10 and j = 10 lie deeper: two faults end at the pillar (10, 10).
+  Case source = near_well::deformed(0.3);
+  for (std::int64_t k = 0; k < 12; ++k)
+    for (std::int64_t j = 10; j < 20; ++j)
+      for (std::int64_t i = 10; i < 20; ++i)
+        for (int corner = 0; corner < 8; ++corner)
+          source.grid.zcorn[source.grid.zcorn_index({i, j, k}, corner & 1, (corner >> 1) & 1, corner >> 2)] += 8.0;
+  for (const double x : {330.0, 350.0, 370.0}) {
+    Well well = near_well::straight("T", {x - 90.0, x - 80.0, 2070.0}, {x, x + 5.0, 2075.0});
+    well.radial.drainage_radius = 8.0;
+    EXPECT_EQ(first(violations_of(build_mesh(source, {well}, {}).mesh, false)), "");
+  }
 }
 
 TEST(BuildMesh, EveryStepIsTimed) {
