@@ -80,15 +80,16 @@ class Assembler {
       const bool has_spheres = !tube.layered && spheres_fit(m, k);
       for (int s = 0; s < m.sectors; ++s)
         for (int r = 0; r < m.rings; ++r) {
-          const CellId cell = add_cell(CellKind::radial, has_spheres ? sphere_center(m, k, s, r) : middle_center(m, k, s, r));
+          const CellId cell =
+              add_cell(CellKind::radial, has_spheres ? sphere_center(m, k, s, r) : middle_center(m, k, s, r));
           out_.mesh.cells.well[cell] = WellId(tube.well);
           out_.mesh.cells.radial_index[cell] = {k, s, r};
         }
     }
   }
 
-  /// Places in one sector's trapezoid at a station: the inner and outer chords' middles, and between them the centre of the circle through its
-  /// four corners where that lies inside, else half way (method.md §3).
+  /// Places in one sector's trapezoid at a station: the inner and outer chords' middles, and between them the centre of
+  /// the circle through its four corners where that lies inside, else half way (method.md §3).
   struct Trapezoid {
     Vec3 low;
     Vec3 high;
@@ -101,7 +102,8 @@ class Assembler {
     const double inner = (m.point(station, r, s) - axis).norm();
     const double outer = (m.point(station, r + 1, s) - axis).norm();
     const bool has_circumcentre = outer / inner * std::cos(2.0 * half_angle) > 1.02;
-    const double at = has_circumcentre ? 0.5 * (inner + outer) / std::pow(std::cos(half_angle), 2) : 0.5 * (inner + outer);
+    const double at =
+        has_circumcentre ? 0.5 * (inner + outer) / std::pow(std::cos(half_angle), 2) : 0.5 * (inner + outer);
     Trapezoid t;
     t.low = 0.5 * (m.point(station, r, s) + m.point(station, r, s + 1));
     t.high = 0.5 * (m.point(station, r + 1, s) + m.point(station, r + 1, s + 1));
@@ -122,8 +124,8 @@ class Assembler {
     return near + (axis + 0.5 * chord - near).dot(chord) / normal.dot(chord) * normal;
   }
 
-  /// In a bend the spheres' centres move out of thin rings. They are used for all cells of a segment or for none: a mixture would turn the
-  /// lines between centres.
+  /// In a bend the spheres' centres move out of thin rings. They are used for all cells of a segment or for none: a
+  /// mixture would turn the lines between centres.
   static bool spheres_fit(const RadialMesh& m, int k) {
     for (int s = 0; s < m.sectors; ++s)
       if (!spheres_fit_sector(m, k, s)) return false;
@@ -232,7 +234,8 @@ class Assembler {
       } else {
         info.role = b.kind == BoundaryFaceKind::lateral ? FaceRole::lateral : FaceRole::axial;
         info.circle = b.radial.ring + 1;
-        if (b.radial.ring >= 0) other = out_.tubes[first_tube + b.tube].cell(b.radial.segment, b.radial.sector, b.radial.ring);
+        if (b.radial.ring >= 0)
+          other = out_.tubes[first_tube + b.tube].cell(b.radial.segment, b.radial.sector, b.radial.ring);
       }
     }
     add_face(loop, cell(face.cell), other, info);
@@ -262,10 +265,12 @@ class Assembler {
           ring.role = FaceRole::ring;
           ring.circle = r;
           // Inwards; the bore's wall is a part of the outer boundary.
-          add_face(Loop{at(k, r, s), at(k + 1, r, s), at(k + 1, r, s + 1), at(k, r, s + 1)}, cell, r > 0 ? placed.cell(k, s, r - 1) : no_cell, ring);
+          add_face(Loop{at(k, r, s), at(k + 1, r, s), at(k + 1, r, s + 1), at(k, r, s + 1)}, cell,
+                   r > 0 ? placed.cell(k, s, r - 1) : no_cell, ring);
           FaceInfo sector;
           sector.role = FaceRole::sector;
-          add_face(Loop{at(k, r, s + 1), at(k + 1, r, s + 1), at(k + 1, r + 1, s + 1), at(k, r + 1, s + 1)}, cell, placed.cell(k, s + 1, r), sector);
+          add_face(Loop{at(k, r, s + 1), at(k + 1, r, s + 1), at(k + 1, r + 1, s + 1), at(k, r + 1, s + 1)}, cell,
+                   placed.cell(k, s + 1, r), sector);
           FaceInfo axial;
           axial.role = FaceRole::axial;
           const bool is_last = k + 1 == m.segments;
@@ -292,17 +297,20 @@ class Assembler {
         if (!cell.is_valid()) continue;
         const double sign = side == 0 ? 1.0 : -1.0;
         add_fan(points, g.mean, mesh.cells.center[cell], sign, volume[cell], mesh.cells.centroid[cell]);
-        if (mesh.cells.kind[cell] == CellKind::radial) radial_faces[cell.index()].push_back({g.mean, sign * g.area_vector});
+        if (mesh.cells.kind[cell] == CellKind::radial)
+          radial_faces[cell.index()].push_back({g.mean, sign * g.area_vector});
       }
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       const CellId cell(c);
-      mesh.cells.centroid[cell] = mesh.cells.center[cell] + mesh.cells.centroid[cell] / (volume[cell] != 0.0 ? volume[cell] : 1.0);
+      mesh.cells.centroid[cell] =
+          mesh.cells.center[cell] + mesh.cells.centroid[cell] / (volume[cell] != 0.0 ? volume[cell] : 1.0);
       if (mesh.cells.kind[cell] != CellKind::host) mesh.cells.volume[cell] = volume[cell];
       if (mesh.cells.kind[cell] != CellKind::radial) continue;
       // Rings that lean against their segment can hide a face of a thin radial cell from its natural centre.
       if (smallest_height(radial_faces[c], mesh.cells.center[cell]) <= 0.0)
-        if (const auto p = point_that_sees_all(radial_faces[c], mesh.cells.center[cell], std::cbrt(std::abs(volume[cell])))) {
+        if (const auto p =
+                point_that_sees_all(radial_faces[c], mesh.cells.center[cell], std::cbrt(std::abs(volume[cell])))) {
           mesh.cells.center[cell] = *p;
           mesh.cells.depth[cell] = p->z();
         }
@@ -310,7 +318,8 @@ class Assembler {
   }
 
   /// Adds the tetrahedra between a face's fan and a cell's centre: volume, and first moment about the centre.
-  static void add_fan(const std::vector<Vec3>& points, const Vec3& mean, const Vec3& center, double sign, double& volume, Vec3& moment) {
+  static void add_fan(const std::vector<Vec3>& points, const Vec3& mean, const Vec3& center, double sign,
+                      double& volume, Vec3& moment) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 a = points[i] - center;
       const Vec3 b = points[(i + 1) % points.size()] - center;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// Host, transition and radial cells knitted into one watertight mesh (method.md §0 step 8): vertices, faces, cells and their geometry.
+/// Host, transition and radial cells knitted into one watertight mesh (method.md §0 step 8): vertices, faces, cells and
+/// their geometry.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,13 @@ enum class FaceRole : std::uint8_t {
 
 struct FaceInfo {
   FaceRole role = FaceRole::general;
-  Axis axis = Axis::i;                  ///< role host
-  std::uint8_t is_fault = 0;            ///< role host
-  std::uint8_t is_pinch = 0;            ///< role host
-  FaceId host_face;                     ///< role host between two host cells: the host mesh's face
-  std::int32_t circle = -1;             ///< roles ring, lateral: circle of the radial mesh, bore 0
-  std::array<HostCellId, 2> host{};     ///< role host: the source cells on the sides of cells[0] and cells[1]; a removed one on the
-                                        ///< side of a transition cell
+  Axis axis = Axis::i;               ///< role host
+  std::uint8_t is_fault = 0;         ///< role host
+  std::uint8_t is_pinch = 0;         ///< role host
+  FaceId host_face;                  ///< role host between two host cells: the host mesh's face
+  std::int32_t circle = -1;          ///< roles ring, lateral: circle of the radial mesh, bore 0
+  std::array<HostCellId, 2> host{};  ///< role host: the source cells on the sides of cells[0] and cells[1]; a removed
+                                     ///< one on the side of a transition cell
 };
 
 /// A tube and the ids of its cells: first_cell + (segment * sectors + sector) * rings + ring.
@@ -47,16 +48,16 @@ struct PlacedTube {
 };
 
 struct Assembly {
-  Mesh mesh;                                ///< geometry only: no properties, connections, transfer
+  Mesh mesh;  ///< geometry only: no properties, connections, transfer
   IdVector<FaceId, FaceInfo> face_info;
-  IdVector<HostCellId, CellId> cell_of;     ///< mesh cell of each source cell that stayed; invalid for the others
-  std::vector<PlacedTube> tubes;            ///< in the order of the cavities and their tubes
+  IdVector<HostCellId, CellId> cell_of;  ///< mesh cell of each source cell that stayed; invalid for the others
+  std::vector<PlacedTube> tubes;         ///< in the order of the cavities and their tubes
   std::vector<std::int64_t> first_transition_cell;  ///< per cavity
   std::vector<std::size_t> first_tube;              ///< cavities + 1 offsets into tubes
 };
 
-/// Cells are numbered: host cells in the source's order, transition cells by cavity, radial cells by tube. `cavities` must outlive the
-/// result.
+/// Cells are numbered: host cells in the source's order, transition cells by cavity, radial cells by tube. `cavities`
+/// must outlive the result.
 Assembly assemble(const CornerPointGrid& grid, const HostMesh& host, const std::vector<TransitionMesh>& cavities);
 
 }  // namespace wellknit

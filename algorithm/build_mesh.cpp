@@ -85,7 +85,8 @@ class Builder {
   }
 
  private:
-  /// A negative skin is flow without resistance out to r_w e^-skin: the rings start there. A first ring thinner than that could not carry it.
+  /// A negative skin is flow without resistance out to r_w e^-skin: the rings start there. A first ring thinner than
+  /// that could not carry it.
   static void take_effective_radius(Well& well) {
     if (!(well.skin < 0.0)) return;
     well.radial.bore_radius *= std::exp(-well.skin);
@@ -96,7 +97,8 @@ class Builder {
     std::set<std::string> names;
     for (const Well& w : wells_) {
       if (!names.insert(w.name).second)
-        throw InvalidInput(fmt::format("well {} is given twice: give each trajectory its own name with --well FILE,name=NAME", w.name));
+        throw InvalidInput(fmt::format(
+            "well {} is given twice: give each trajectory its own name with --well FILE,name=NAME", w.name));
       try {
         (void)circle_radii(w.radial);
         (void)WellPath(w.trajectory);
@@ -142,11 +144,12 @@ class Builder {
         cells_on_path_[w].push_back(grid_.ijk(hint));
       }
       if (cells_on_path_[w].empty())
-        throw InvalidInput(fmt::format("well {} does not meet the grid: its path runs from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}); "
-                                       "check its coordinates, units and depth sign",
-                                       wells_[w].name, wells_[w].trajectory.points.front().x(), wells_[w].trajectory.points.front().y(),
-                                       wells_[w].trajectory.points.front().z(), wells_[w].trajectory.points.back().x(),
-                                       wells_[w].trajectory.points.back().y(), wells_[w].trajectory.points.back().z()));
+        throw InvalidInput(fmt::format(
+            "well {} does not meet the grid: its path runs from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}); "
+            "check its coordinates, units and depth sign",
+            wells_[w].name, wells_[w].trajectory.points.front().x(), wells_[w].trajectory.points.front().y(),
+            wells_[w].trajectory.points.front().z(), wells_[w].trajectory.points.back().x(),
+            wells_[w].trajectory.points.back().y(), wells_[w].trajectory.points.back().z()));
     }
   }
 
@@ -159,14 +162,17 @@ class Builder {
   /// The tube of a well in the space of its cluster. The mode is chosen once, alone, and kept.
   TubeOrReason tube_of(const HostFrame& frame, std::size_t well) {
     const auto path = path_in_reference(frame, wells_[well]);
-    if (path.size() < 2) return NoTube{"its path inside the grid is shorter than one part in two thousand of its length"};
+    if (path.size() < 2)
+      return NoTube{"its path inside the grid is shorter than one part in two thousand of its length"};
     TubeOrReason tube = NoTube{};
     const Vec3 chord = path.back().reference - path.front().reference;
     is_steep_[well] = std::abs(chord.z()) > std::hypot(chord.x(), chord.y()) ? 1 : 0;
     if (modes_[well] == MeshMode::automatic)
-      modes_[well] = wells_[well].radial.mode == MeshMode::automatic ? choose_mode(path, wells_[well].radial.drainage_radius)
-                                                                      : wells_[well].radial.mode;
-    tube = modes_[well] == MeshMode::layered ? build_layered_tube(frame, wells_[well], path) : build_swept_tube(frame, wells_[well], path);
+      modes_[well] = wells_[well].radial.mode == MeshMode::automatic
+                         ? choose_mode(path, wells_[well].radial.drainage_radius)
+                         : wells_[well].radial.mode;
+    tube = modes_[well] == MeshMode::layered ? build_layered_tube(frame, wells_[well], path)
+                                             : build_swept_tube(frame, wells_[well], path);
     if (auto* t = std::get_if<Tube>(&tube)) t->well = well;
     return tube;
   }
@@ -227,14 +233,17 @@ class Builder {
         drop(cluster, *none);
         continue;
       }
-      for (const auto& c : std::get<Cavity>(cavity).removed) cluster.removed.push_back(grid_.cell_id(c[0], c[1], c[2]).value());
+      for (const auto& c : std::get<Cavity>(cavity).removed)
+        cluster.removed.push_back(grid_.cell_id(c[0], c[1], c[2]).value());
       return;
     }
   }
 
   /// True when two sets of cells overlap or have a face in common.
   [[nodiscard]] bool do_touch(const Cluster& a, const Cluster& b) const {
-    const auto has = [](const std::vector<std::int64_t>& list, std::int64_t c) { return std::binary_search(list.begin(), list.end(), c); };
+    const auto has = [](const std::vector<std::int64_t>& list, std::int64_t c) {
+      return std::binary_search(list.begin(), list.end(), c);
+    };
     for (const std::int64_t c : a.removed) {
       if (has(b.removed, c)) return true;
       const auto at = grid_.ijk(HostCellId(c));
@@ -242,7 +251,9 @@ class Builder {
         for (const std::int64_t step : {-1, 1}) {
           auto n = at;
           n[axis] += step;
-          if (n[axis] >= 0 && n[axis] < grid_.dimensions[axis] && has(b.removed, grid_.cell_id(n[0], n[1], n[2]).value())) return true;
+          if (n[axis] >= 0 && n[axis] < grid_.dimensions[axis] &&
+              has(b.removed, grid_.cell_id(n[0], n[1], n[2]).value()))
+            return true;
         }
     }
     return false;
@@ -295,7 +306,8 @@ class Builder {
   static void join(Cluster& into, Cluster& from) {
     into.wells.insert(into.wells.end(), from.wells.begin(), from.wells.end());
     std::vector<std::int64_t> all;
-    std::set_union(into.removed.begin(), into.removed.end(), from.removed.begin(), from.removed.end(), std::back_inserter(all));
+    std::set_union(into.removed.begin(), into.removed.end(), from.removed.begin(), from.removed.end(),
+                   std::back_inserter(all));
     into.removed = std::move(all);
   }
 
@@ -317,8 +329,10 @@ class Builder {
     }
   }
 
-  /// The first two meshed clusters whose cavities touch. Each merge leaves one cluster less, so that looking again ends.
-  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> touching_meshes(const std::vector<std::optional<TransitionMesh>>& meshes) const {
+  /// The first two meshed clusters whose cavities touch. Each merge leaves one cluster less, so that looking again
+  /// ends.
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> touching_meshes(
+      const std::vector<std::optional<TransitionMesh>>& meshes) const {
     for (std::size_t a = 0; a < meshes.size(); ++a)
       for (std::size_t b = a + 1; b < meshes.size(); ++b)
         if (meshes[a] && meshes[b] && do_touch(clusters_[a], clusters_[b])) return std::pair(a, b);
@@ -352,17 +366,22 @@ class Builder {
     s.radial_cells = static_cast<std::int64_t>(tube.real.segments) * tube.real.sectors * tube.real.rings;
     s.notes = tube.notes;
     if (const auto count = cavity_summary.outer_nodes_left_out; count > 0)
-      s.notes.push_back(fmt::format("{} nodes of the grid's top, base or sides within its cavity are not followed: they would contradict the tube there", count));
+      s.notes.push_back(
+          fmt::format("{} nodes of the grid's top, base or sides within its cavity are not followed: they would "
+                      "contradict the tube there",
+                      count));
   }
 
-  /// Where the mapping cannot follow the grid's outside the rock in a cavity gains or loses bulk volume. Its pore volume is kept.
+  /// Where the mapping cannot follow the grid's outside the rock in a cavity gains or loses bulk volume. Its pore
+  /// volume is kept.
   void note_volumes(const Assembly& assembly) {
     std::vector<double> made(cavities_.size(), 0.0);
     const Cells& cells = assembly.mesh.cells;
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const CellId cell(c);
       if (cells.kind[cell] != CellKind::transition && cells.kind[cell] != CellKind::radial) continue;
-      const std::int32_t cavity = cells.well[cell].is_valid() ? result_.summary.wells[cells.well[cell].index()].cavity : cavity_of(assembly, cell);
+      const std::int32_t cavity = cells.well[cell].is_valid() ? result_.summary.wells[cells.well[cell].index()].cavity
+                                                              : cavity_of(assembly, cell);
       made[static_cast<std::size_t>(cavity)] += cells.volume[cell];
     }
     for (std::size_t c = 0; c < cavities_.size(); ++c) {
@@ -370,14 +389,19 @@ class Builder {
       for (const auto& r : cavities_[c].cavity.removed) removed += host_.volume[grid_.cell_id(r[0], r[1], r[2])];
       // A thousandth: the chords of curved horizons and the bore stay below it.
       if (const double change = made[c] / removed - 1.0; std::abs(change) > 1e-3)
-        result_.summary.notes.push_back(fmt::format("the bulk volume of cavity {} changes by {:+.2f} %: the top, base or sides of the grid are curved there and "
-                                                    "its cells follow them in chords; its pore volume is kept", c + 1, 100.0 * change));
+        result_.summary.notes.push_back(
+            fmt::format("the bulk volume of cavity {} changes by {:+.2f} %: the top, base or sides of the grid are "
+                        "curved there and "
+                        "its cells follow them in chords; its pore volume is kept",
+                        c + 1, 100.0 * change));
     }
   }
 
   static std::int32_t cavity_of(const Assembly& assembly, CellId transition) {
     const auto& starts = assembly.first_transition_cell;
-    return static_cast<std::int32_t>(std::distance(starts.begin(), std::upper_bound(starts.begin(), starts.end(), transition.value()))) - 1;
+    return static_cast<std::int32_t>(
+               std::distance(starts.begin(), std::upper_bound(starts.begin(), starts.end(), transition.value()))) -
+           1;
   }
 
   /// Made cells without pores stand in inactive rock: right, but the user should know.
@@ -386,7 +410,9 @@ class Builder {
     std::int64_t count = 0;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       count += mesh.cells.kind[CellId(c)] >= CellKind::transition && !(mesh.cells.pore_volume[CellId(c)] > 0.0) ? 1 : 0;
-    if (count > 0) result_.summary.notes.push_back(fmt::format("{} made cells lie wholly in inactive rock or rock without pores", count));
+    if (count > 0)
+      result_.summary.notes.push_back(
+          fmt::format("{} made cells lie wholly in inactive rock or rock without pores", count));
   }
 
   void add_wells(Assembly& assembly) {
@@ -399,7 +425,8 @@ class Builder {
       out.trajectory = well.trajectory;
       out.bore_radius = given_[w].radial.bore_radius;
       if (given_[w].skin < 0.0)
-        summary.notes.push_back(fmt::format("its skin of {:g} is taken as an effective bore radius of {:.3g} m", given_[w].skin, well.radial.bore_radius));
+        summary.notes.push_back(fmt::format("its skin of {:g} is taken as an effective bore radius of {:.3g} m",
+                                            given_[w].skin, well.radial.bore_radius));
       out.drainage_radius = summary.meshed ? well.radial.drainage_radius : 0.0;
       out.type = well.type;
       out.reference_depth = well.reference_depth;
@@ -425,7 +452,7 @@ class Builder {
   HostMesh host_;
   std::unique_ptr<CellLocator> locator_;
   std::vector<std::vector<std::array<std::int64_t, 3>>> cells_on_path_;  ///< per well, along its path
-  std::vector<MeshMode> modes_;                                        ///< per well; automatic: not chosen yet
+  std::vector<MeshMode> modes_;                                          ///< per well; automatic: not chosen yet
   std::vector<std::uint8_t> is_steep_;          ///< per well: within 45 degrees of the layers' normal in E_ref
   std::vector<std::uint8_t> has_changed_mode_;  ///< per well
   std::vector<std::string> first_reason_;       ///< per well: why the mode chosen first did not do

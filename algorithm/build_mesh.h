@@ -27,13 +27,13 @@ struct BuildOptions {
 struct WellSummary {
   std::string name;
   bool meshed = false;
-  std::string mode;     ///< "layered" or "swept"; "host cells" when not meshed
-  std::string reason;   ///< why it was not meshed and what would help; empty when meshed
+  std::string mode;          ///< "layered" or "swept"; "host cells" when not meshed
+  std::string reason;        ///< why it was not meshed and what would help; empty when meshed
   std::int32_t cavity = -1;  ///< 0-based; wells with the same number share one cavity
   std::int64_t radial_cells = 0;
   std::int64_t segments = 0;
-  double drainage_radius = 0.0;      ///< m
-  std::int64_t connections = 0;      ///< cells open to the bore
+  double drainage_radius = 0.0;        ///< m
+  std::int64_t connections = 0;        ///< cells open to the bore
   std::int64_t index_connections = 0;  ///< of these, host or transition cells connected by a Peaceman index
   std::vector<std::string> notes;
 };
@@ -42,15 +42,18 @@ struct CavitySummary {
   std::int64_t cells_removed = 0;
   std::int64_t cells_refined = 0;
   std::int64_t transition_cells = 0;
-  std::int64_t transition_faces = 0;     ///< all faces of the transition cells
+  std::int64_t transition_faces = 0;  ///< all faces of the transition cells
   std::int64_t transition_vertices = 0;
-  std::int64_t cavity_rounds = 0;        ///< until every face was admissible
+  std::int64_t cavity_rounds = 0;  ///< until every face was admissible
   std::int64_t boundary_faces = 0;
-  std::int64_t boundary_faces_found = 0; ///< found again in the power diagram as the very same vertex set
-  std::int64_t inverted_tetrahedra = 0;  ///< before the correction of the mapping
+  std::int64_t boundary_faces_found = 0;  ///< found again in the power diagram as the very same vertex set
+  std::int64_t inverted_tetrahedra = 0;   ///< before the correction of the mapping
   std::int64_t loops = 0;
   std::int64_t points_inserted = 0;
-  std::int64_t outer_nodes_left_out = 0;  ///< nodes of the grid's outside above or beside the cavity that the mapping does not follow
+  std::int64_t short_edges = 0;           ///< of the transition cells: below 0.03 drainage radii, after the adjustment
+  std::int64_t short_edges_expanded = 0;  ///< that the adjustment lengthened
+  std::int64_t outer_nodes_left_out =
+      0;  ///< nodes of the grid's outside above or beside the cavity that the mapping does not follow
   std::int64_t cells_not_seen_from_centre = 0;
 };
 
@@ -60,7 +63,7 @@ struct StepTime {
 };
 
 struct BuildSummary {
-  std::vector<WellSummary> wells;     ///< in the order given
+  std::vector<WellSummary> wells;  ///< in the order given
   std::vector<CavitySummary> cavities;
   std::vector<StepTime> times;
   std::vector<std::string> notes;

@@ -22,7 +22,8 @@ using Node = std::array<std::int64_t, 3>;
 /// The grid's cells as a mask of what is removed.
 class RemovedCells {
  public:
-  explicit RemovedCells(const CornerPointGrid& grid) : grid_(grid), mask_(static_cast<std::size_t>(grid.cell_count()), 0) {}
+  explicit RemovedCells(const CornerPointGrid& grid)
+      : grid_(grid), mask_(static_cast<std::size_t>(grid.cell_count()), 0) {}
 
   [[nodiscard]] bool is_inside_grid(const Cell& c) const {
     for (std::size_t a = 0; a < 3; ++a)
@@ -87,7 +88,8 @@ std::array<Node, 4> side_nodes(const Cell& c, int side) {
   return nodes;
 }
 
-// ---- cells that meet a tube -------------------------------------------------------------------------------------------
+// ---- cells that meet a tube
+// -------------------------------------------------------------------------------------------
 
 double distance_to_box(const Box& box, const Vec3& p) { return (p - p.cwiseMax(box.low).cwiseMin(box.high)).norm(); }
 
@@ -116,7 +118,8 @@ std::array<std::int64_t, 2> cell_range(const ReferenceSpace& space, int axis, do
 void remove_along_segment(const HostFrame& frame, const Vec3& p, const Vec3& q, double radius, RemovedCells& removed) {
   std::array<std::array<std::int64_t, 2>, 3> range;
   for (int a = 0; a < 3; ++a)
-    range[static_cast<std::size_t>(a)] = cell_range(frame.space, a, std::min(p[a], q[a]) - radius, std::max(p[a], q[a]) + radius);
+    range[static_cast<std::size_t>(a)] =
+        cell_range(frame.space, a, std::min(p[a], q[a]) - radius, std::max(p[a], q[a]) + radius);
   for (std::int64_t k = range[2][0]; k <= range[2][1]; ++k)
     for (std::int64_t j = range[1][0]; j <= range[1][1]; ++j)
       for (std::int64_t i = range[0][0]; i <= range[0][1]; ++i)
@@ -130,7 +133,8 @@ void remove_cells_at_tube(const HostFrame& frame, const Tube& tube, RemovedCells
     remove_along_segment(frame, tube.reference.axis[k], tube.reference.axis[k + 1], radius, removed);
 }
 
-// ---- closed and manifold ----------------------------------------------------------------------------------------------
+// ---- closed and manifold
+// ----------------------------------------------------------------------------------------------
 
 /// Layered cavities take whole columns: all their boundary faces are then lateral and their cells layered prisms.
 void complete_columns(const CornerPointGrid& grid, RemovedCells& removed) {
@@ -138,7 +142,8 @@ void complete_columns(const CornerPointGrid& grid, RemovedCells& removed) {
     for (std::int64_t k = 0; k < grid.dimensions[2]; ++k) removed.add({c[0], c[1], k});
 }
 
-/// Where two removed cells touch along an edge only, the two others at the edge go too, so that the boundary is a 2-manifold.
+/// Where two removed cells touch along an edge only, the two others at the edge go too, so that the boundary is a
+/// 2-manifold.
 bool remove_touching_edges(RemovedCells& removed) {
   bool changed = false;
   for (const Cell& c : removed.list())
@@ -167,15 +172,16 @@ void dilate(RemovedCells& removed) {
     for (int side = 0; side < 6; ++side) removed.add(neighbour(c, side));
 }
 
-// ---- boundary ---------------------------------------------------------------------------------------------------------
+// ---- boundary
+// ---------------------------------------------------------------------------------------------------------
 
 /// Vertex of the host mesh at a node, as the cells of the cavity see it; they must agree.
 class HostNodes {
  public:
   explicit HostNodes(const HostFrame& frame) : frame_(frame) {}
 
-  /// False when a cell sees another vertex at one of its corners than an earlier cell did (a fault), or two of its own corners
-  /// are one vertex (a pinch-out).
+  /// False when a cell sees another vertex at one of its corners than an earlier cell did (a fault), or two of its own
+  /// corners are one vertex (a pinch-out).
   bool add(const Cell& c) {
     const HostCellId id = frame_.grid.cell_id(c[0], c[1], c[2]);
     for (int corner = 0; corner < 8; ++corner) {
@@ -184,7 +190,8 @@ class HostNodes {
       if (nodes_.emplace(n, v).first->second != v) return false;
     }
     for (int corner = 0; corner < 4; ++corner)
-      if (frame_.host.corner(id, corner & 1, corner >> 1, 0) == frame_.host.corner(id, corner & 1, corner >> 1, 1)) return false;
+      if (frame_.host.corner(id, corner & 1, corner >> 1, 0) == frame_.host.corner(id, corner & 1, corner >> 1, 1))
+        return false;
     return true;
   }
   [[nodiscard]] VertexId at(const Node& n) const { return nodes_.at(n); }
@@ -198,7 +205,8 @@ class HostNodes {
 /// Collects the boundary of a set of removed cells and tubes.
 class BoundaryBuilder {
  public:
-  BoundaryBuilder(const HostFrame& frame, const RemovedCells& removed, Cavity& cavity) : frame_(frame), removed_(removed), cavity_(cavity) {}
+  BoundaryBuilder(const HostFrame& frame, const RemovedCells& removed, Cavity& cavity)
+      : frame_(frame), removed_(removed), cavity_(cavity) {}
 
   void build() {
     cavity_.vertices.clear();
@@ -256,7 +264,8 @@ class BoundaryBuilder {
   }
 
   std::int32_t tube_vertex(std::size_t tube, std::size_t point) {
-    const auto [at, is_new] = tube_vertices_.emplace(std::pair(tube, point), static_cast<std::int32_t>(cavity_.vertices.size()));
+    const auto [at, is_new] =
+        tube_vertices_.emplace(std::pair(tube, point), static_cast<std::int32_t>(cavity_.vertices.size()));
     if (is_new) {
       CavityVertex v;
       v.reference = cavity_.tubes[tube].reference.points[point];
@@ -284,7 +293,8 @@ class BoundaryBuilder {
     face.tube = t;
     face.radial = {k, s, mesh.rings - 1};
     const int outer = mesh.rings;
-    for (const auto& [station, sector] : {std::pair(k, s), std::pair(k, s + 1), std::pair(k + 1, s + 1), std::pair(k + 1, s)})
+    for (const auto& [station, sector] :
+         {std::pair(k, s), std::pair(k, s + 1), std::pair(k + 1, s + 1), std::pair(k + 1, s)})
       face.loop.push_back(tube_vertex(t, mesh.point_index(station, outer, sector)));
     const double radius = cavity_.tubes[t].reference_radius;
     const double inner = (mesh.point(k, outer - 1, s) - mesh.axis[static_cast<std::size_t>(k)]).norm();
@@ -308,8 +318,8 @@ class BoundaryBuilder {
       face.kind = BoundaryFaceKind::cap;
       face.tube = t;
       face.natural = half;
-      // Short of the centre of the radial cell's sphere: that passes through the lateral face behind, and two outside sites with power 0 on
-      // one face would share it.
+      // Short of the centre of the radial cell's sphere: that passes through the lateral face behind, and two outside
+      // sites with power 0 on one face would share it.
       face.natural_outside = -0.6 * half;
       finish(face, end + (end - next));
     };
@@ -317,7 +327,8 @@ class BoundaryBuilder {
       for (int s = 0; s < mesh.sectors; ++s) {
         BoundaryFace face;
         face.radial = {segment, s, ring};
-        for (const auto& [circle, sector] : {std::pair(ring, s), std::pair(ring, s + 1), std::pair(ring + 1, s + 1), std::pair(ring + 1, s)})
+        for (const auto& [circle, sector] :
+             {std::pair(ring, s), std::pair(ring, s + 1), std::pair(ring + 1, s + 1), std::pair(ring + 1, s)})
           face.loop.push_back(tube_vertex(t, mesh.point_index(station, circle, sector)));
         add(std::move(face));
       }
@@ -350,7 +361,8 @@ class BoundaryBuilder {
       const Vec3 a = points[n / 3] - points[0];
       const Vec3 b = points[(2 * n) / 3] - points[0];
       const Vec3 normal = a.cross(b);
-      face.center = points[0] + (a.squaredNorm() * b.cross(normal) + b.squaredNorm() * normal.cross(a)) / (2.0 * normal.squaredNorm());
+      face.center = points[0] + (a.squaredNorm() * b.cross(normal) + b.squaredNorm() * normal.cross(a)) /
+                                    (2.0 * normal.squaredNorm());
     }
     for (const Vec3& p : points) face.radius += (p - face.center).norm() / static_cast<double>(points.size());
   }
@@ -362,7 +374,8 @@ class BoundaryBuilder {
   std::map<std::pair<std::size_t, std::size_t>, std::int32_t> tube_vertices_;
 };
 
-// ---- rounds -----------------------------------------------------------------------------------------------------------
+// ---- rounds
+// -----------------------------------------------------------------------------------------------------------
 
 std::vector<std::size_t> all_wells(const Cavity& cavity) {
   std::vector<std::size_t> wells;
@@ -386,8 +399,8 @@ void remove_at_node(const Node& n, RemovedCells& removed) {
 }
 
 /// One face that is not admissible: removes what is in its way. Returns a reason when nothing can be removed.
-std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cavity, const BoundaryFace& face, const CavityOptions& options,
-                                  RemovedCells& removed) {
+std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cavity, const BoundaryFace& face,
+                                  const CavityOptions& options, RemovedCells& removed) {
   if (face.kind == BoundaryFaceKind::host) {
     removed.add(grid.ijk(face.outside_cell));
     return std::nullopt;
@@ -403,43 +416,52 @@ std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cav
     return std::nullopt;
   }
   const std::size_t other = cavity.tubes[v.tube].well;
-  if (other == well) return NoCavity{"the tube comes too close to itself: choose a smaller radius or more segments", {well}};
+  if (other == well)
+    return NoCavity{"the tube comes too close to itself: choose a smaller radius or more segments", {well}};
   return NoCavity{"the tube comes too close to another well's: choose smaller radii", {std::max(well, other)}};
 }
 
 std::string cell_name(const Cell& c) { return fmt::format("({}, {}, {})", c[0] + 1, c[1] + 1, c[2] + 1); }
 
-/// The host's faces on the cavity's wall must have just their four corners: one that carries more, cut by a fault next to it, would not meet
-/// the cavity's face edge by edge. So must those on the grid's outside that share an edge with the wall; they belong to kept cells, and the extra
-/// vertex then is on a wall's face too.
+/// The host's faces on the cavity's wall must have just their four corners: one that carries more, cut by a fault next
+/// to it, would not meet the cavity's face edge by edge. So must those on the grid's outside that share an edge with
+/// the wall; they belong to kept cells, and the extra vertex then is on a wall's face too.
 std::optional<std::string> check_walls(const HostFrame& frame, const RemovedCells& removed) {
   const HostFaces& faces = frame.host.faces;
   for (std::size_t index = 0; index < faces.size(); ++index) {
     const auto [a, b] = faces.cells[FaceId(index)];
     if (!b.is_valid() || removed.contains(a) == removed.contains(b)) continue;
     if (faces.loop(FaceId(index)).size() != 4 || faces.is_fault[FaceId(index)] != 0)
-      return fmt::format("a fault beside cells {} and {} puts vertices on the cavity's wall; this is not handled yet: choose a smaller radius",
-                         cell_name(frame.grid.ijk(a)), cell_name(frame.grid.ijk(b)));
+      return fmt::format(
+          "a fault beside cells {} and {} puts vertices on the cavity's wall; this is not handled yet: choose a "
+          "smaller radius",
+          cell_name(frame.grid.ijk(a)), cell_name(frame.grid.ijk(b)));
   }
   return std::nullopt;
 }
 
-/// Every cell of the cavity and every kept cell at its boundary must see one vertex at each node: no fault and no pinch-out.
-std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCells& removed, const Cavity& cavity, HostNodes& nodes) {
+/// Every cell of the cavity and every kept cell at its boundary must see one vertex at each node: no fault and no
+/// pinch-out.
+std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCells& removed, const Cavity& cavity,
+                                       HostNodes& nodes) {
   for (const Cell& c : cavity.removed)
     if (!nodes.add(c))
-      return fmt::format("a fault or a pinch-out at cell {} lies inside the cavity; these are not handled yet: choose a smaller radius",
-                         cell_name(c));
+      return fmt::format(
+          "a fault or a pinch-out at cell {} lies inside the cavity; these are not handled yet: choose a smaller "
+          "radius",
+          cell_name(c));
   for (const Cell& c : cavity.removed)
     for (int side = 0; side < 6; ++side) {
       const Cell outside = neighbour(c, side);
       if (!removed.is_inside_grid(outside) || removed.contains(outside)) continue;
       const HostCellId id = frame.grid.cell_id(outside[0], outside[1], outside[2]);
       for (const Node& n : side_nodes(c, side))
-        if (frame.host.corner(id, static_cast<int>(n[0] - outside[0]), static_cast<int>(n[1] - outside[1]), static_cast<int>(n[2] - outside[2])) !=
-            nodes.at(n))
-          return fmt::format("a fault or a gap between cells {} and {} lies on the cavity's wall; this is not handled yet: choose a smaller radius",
-                             cell_name(c), cell_name(outside));
+        if (frame.host.corner(id, static_cast<int>(n[0] - outside[0]), static_cast<int>(n[1] - outside[1]),
+                              static_cast<int>(n[2] - outside[2])) != nodes.at(n))
+          return fmt::format(
+              "a fault or a gap between cells {} and {} lies on the cavity's wall; this is not handled yet: choose a "
+              "smaller radius",
+              cell_name(c), cell_name(outside));
     }
   return check_walls(frame, removed);
 }
@@ -468,8 +490,9 @@ double tube_volume(const RadialMesh& mesh) {
     const Vec3 o = 0.5 * (mesh.axis[static_cast<std::size_t>(k)] + mesh.axis[static_cast<std::size_t>(k) + 1]);
     double segment = 0.0;
     for (int s = 0; s < mesh.sectors; ++s)
-      segment += fan({mesh.point(k, mesh.rings, s), mesh.point(k, mesh.rings, s + 1), mesh.point(k + 1, mesh.rings, s + 1),
-                      mesh.point(k + 1, mesh.rings, s)}, o);
+      segment += fan({mesh.point(k, mesh.rings, s), mesh.point(k, mesh.rings, s + 1),
+                      mesh.point(k + 1, mesh.rings, s + 1), mesh.point(k + 1, mesh.rings, s)},
+                     o);
     for (const int station : {k, k + 1}) {
       std::vector<Vec3> ring;
       for (int s = 0; s < mesh.sectors; ++s) ring.push_back(mesh.point(station, mesh.rings, s));
@@ -520,8 +543,11 @@ std::optional<NoCavity> overlapping_tubes(const std::vector<Tube>& tubes) {
       for (std::size_t i = 0; i + 1 < one.size(); ++i)
         for (std::size_t j = 0; j + 1 < two.size(); ++j)
           if (const double d = segment_distance(one[i], one[i + 1], two[j], two[j + 1]); d < least)
-            return NoCavity{fmt::format("its tube overlaps another well's: their paths come within {:.1f} m where the two radii need {:.1f} m; choose smaller "
-                                        "radii", d, least), {std::max(tubes[a].well, tubes[b].well)}};
+            return NoCavity{fmt::format("its tube overlaps another well's: their paths come within {:.1f} m where the "
+                                        "two radii need {:.1f} m; choose smaller "
+                                        "radii",
+                                        d, least),
+                            {std::max(tubes[a].well, tubes[b].well)}};
     }
   return std::nullopt;
 }
@@ -535,7 +561,8 @@ void make_closed(const HostFrame& frame, const std::vector<Tube>& tubes, Removed
 
 }  // namespace
 
-void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices, const std::vector<MirrorPlane>& planes) {
+void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices,
+                       const std::vector<MirrorPlane>& planes) {
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t index) {
     BoundaryFace& f = faces[index];
     f.t_low = -std::numeric_limits<double>::infinity();
@@ -575,7 +602,8 @@ void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<Cavit
   });
 }
 
-std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes, const CavityOptions& options) {
+std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes,
+                                            const CavityOptions& options) {
   if (auto overlap = overlapping_tubes(tubes)) return *overlap;
   Cavity cavity;
   cavity.tubes = std::move(tubes);
@@ -586,12 +614,17 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
   for (cavity.rounds = 1;; ++cavity.rounds) {
     make_closed(frame, cavity.tubes, removed);
     if (cavity.rounds > most_rounds)
-      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed): choose a smaller radius, or more segments", most_rounds,
-                                  removed.count()), all_wells(cavity)};
+      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed): choose a smaller "
+                                  "radius, or more segments",
+                                  most_rounds, removed.count()),
+                      all_wells(cavity)};
     if (removed.count() > options.most_cells)
-      return NoCavity{fmt::format("the cavity would swallow {} cells: the host's cells are too flat or too large for this radius and its "
-                                  "refinement is not available yet; choose a smaller radius or refine the grid laterally near the well",
-                                  removed.count()), all_wells(cavity)};
+      return NoCavity{
+          fmt::format(
+              "the cavity would swallow {} cells: the host's cells are too flat or too large for this radius and its "
+              "refinement is not available yet; choose a smaller radius or refine the grid laterally near the well",
+              removed.count()),
+          all_wells(cavity)};
     cavity.removed = removed.list();
     BoundaryBuilder(frame, removed, cavity).build();
     set_sphere_bounds(cavity.faces, cavity.vertices, cavity.planes);
@@ -600,8 +633,11 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
       if (!is_good(f, options))
         if (auto reason = make_room(frame.grid, cavity, f, options, removed)) return *reason;
     if (removed.count() != before) continue;
-    if (!std::all_of(cavity.faces.begin(), cavity.faces.end(), [&](const BoundaryFace& f) { return is_good(f, options); }))
-      return NoCavity{"the tube comes too close to a corner of the cavity that cannot be removed: choose a smaller radius", all_wells(cavity)};
+    if (!std::all_of(cavity.faces.begin(), cavity.faces.end(),
+                     [&](const BoundaryFace& f) { return is_good(f, options); }))
+      return NoCavity{
+          "the tube comes too close to a corner of the cavity that cannot be removed: choose a smaller radius",
+          all_wells(cavity)};
     if (dilations == 0) break;
     --dilations;
     dilate(removed);

@@ -4,8 +4,8 @@
 /// The cavity: which host cells go, and the boundary of the space between them and the tubes (method.md §6).
 ///
 /// Source: T. Mouton, C. Bennis, H. Borouchaki (key Mouton); the admissibility bounds are derived in method.md §6.
-/// Notation of method.md: f a boundary face, o_f and rho_f centre and radius of its circle, n_f its unit normal into the cavity,
-/// c(t) = o_f + t n_f the centres of the spheres through its vertices.
+/// Notation of method.md: f a boundary face, o_f and rho_f centre and radius of its circle, n_f its unit normal into
+/// the cavity, c(t) = o_f + t n_f the centres of the spheres through its vertices.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@ namespace wellknit {
 struct CavityVertex {
   Vec3 reference = Vec3::Zero();  ///< in E_ref
   Vec3 real = Vec3::Zero();
-  bool is_host = false;           ///< a node of the grid; else a point of a tube
-  VertexId host;                  ///< of the host mesh, host vertices
+  bool is_host = false;                ///< a node of the grid; else a point of a tube
+  VertexId host;                       ///< of the host mesh, host vertices
   std::array<std::int64_t, 3> node{};  ///< of the grid, host vertices
-  std::size_t tube = 0;           ///< place in the cavity's tubes, tube vertices
-  std::size_t tube_point = 0;     ///< RadialMesh::point_index
+  std::size_t tube = 0;                ///< place in the cavity's tubes, tube vertices
+  std::size_t tube_point = 0;          ///< RadialMesh::point_index
 };
 
 enum class BoundaryFaceKind : std::uint8_t { host, lateral, cap };
@@ -44,12 +44,12 @@ struct BoundaryFace {
   double natural_outside = 0.0;    ///< the same for the outside site, negative
   double t_low = -std::numeric_limits<double>::infinity();
   double t_high = std::numeric_limits<double>::infinity();
-  std::int32_t low_vertex = -1;    ///< what sets t_low; -1: nothing
-  std::int32_t high_vertex = -1;   ///< what sets t_high; -1: nothing or a plane
-  HostCellId outside_cell;         ///< kind host: the kept cell behind it, active or not
-  HostCellId removed_cell;         ///< kind host: the removed cell before it
-  std::size_t tube = 0;            ///< kinds lateral, cap: place in the cavity's tubes
-  RadialIndex radial;              ///< kinds lateral, cap: the radial cell behind it; ring -1: the bore
+  std::int32_t low_vertex = -1;   ///< what sets t_low; -1: nothing
+  std::int32_t high_vertex = -1;  ///< what sets t_high; -1: nothing or a plane
+  HostCellId outside_cell;        ///< kind host: the kept cell behind it, active or not
+  HostCellId removed_cell;        ///< kind host: the removed cell before it
+  std::size_t tube = 0;           ///< kinds lateral, cap: place in the cavity's tubes
+  RadialIndex radial;             ///< kinds lateral, cap: the radial cell behind it; ring -1: the bore
 };
 
 /// A plane of the grid's own outside that the cavity meets.
@@ -83,16 +83,20 @@ struct NoCavity {
 };
 
 struct CavityOptions {
-  double least_host_clearance = 0.5;    ///< tau of method.md §6: least t_high of a host face over half its removed cell
-  double least_radial_clearance = 0.5;  ///< least t_high of a tube's face over the smaller of its natural t and its radius
-  int dilation = 0;                     ///< rounds of cells removed beyond what admissibility asks for
-  std::int64_t most_cells = 200000;     ///< removed; beyond it the well needs a refined host
+  double least_host_clearance = 0.5;  ///< tau of method.md §6: least t_high of a host face over half its removed cell
+  double least_radial_clearance =
+      0.5;                           ///< least t_high of a tube's face over the smaller of its natural t and its radius
+  int dilation = 0;                  ///< rounds of cells removed beyond what admissibility asks for
+  std::int64_t most_cells = 200000;  ///< removed; beyond it the well needs a refined host
 };
 
 /// Removes cells until every boundary face is admissible and can hold its site.
-std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes, const CavityOptions& options);
+std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes,
+                                            const CavityOptions& options);
 
-/// Sets t_low and t_high of all faces against all vertices and planes. Parallel over faces; the result does not depend on it.
-void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices, const std::vector<MirrorPlane>& planes);
+/// Sets t_low and t_high of all faces against all vertices and planes. Parallel over faces; the result does not depend
+/// on it.
+void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices,
+                       const std::vector<MirrorPlane>& planes);
 
 }  // namespace wellknit

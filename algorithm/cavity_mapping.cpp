@@ -38,7 +38,9 @@ constexpr std::int64_t most_loops = 25;
 constexpr int most_sweeps = 12;
 constexpr double room_for_face = 0.02;  ///< of its radius: what a face's interval of empty spheres must keep
 
-double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
 
 Kernel::Point_3 cgal_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -51,7 +53,8 @@ struct Tetrahedron {
 
 class CavityMapping::Implementation {
  public:
-  Implementation(const Cavity& cavity, MappingMethod method) : cavity_(cavity), method_(method), is_left_out_(cavity.plane_nodes.size(), 0) {
+  Implementation(const Cavity& cavity, MappingMethod method)
+      : cavity_(cavity), method_(method), is_left_out_(cavity.plane_nodes.size(), 0) {
     do {
       start();
       insert_boundary();
@@ -96,7 +99,8 @@ class CavityMapping::Implementation {
     for (std::size_t f = 0; f < cavity_.faces.size(); ++f) {
       low_.push_back(cavity_.faces[f].t_low);
       high_.push_back(cavity_.faces[f].t_high);
-      for (const auto v : cavity_.faces[f].loop) faces_at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
+      for (const auto v : cavity_.faces[f].loop)
+        faces_at_[static_cast<std::size_t>(v)].push_back(static_cast<std::int32_t>(f));
     }
     for (const CavityVertex& v : cavity_.vertices) insert(v.reference, v.real);
     fixed_ = reference_.size();
@@ -114,8 +118,9 @@ class CavityMapping::Implementation {
     }
   }
 
-  /// A node of the grid's outside that makes an inverted tetrahedron cannot be helped by points inside: where a layered tube's circle in
-  /// E_ref and its real one stand differently to the node, the surface itself is folded. True when some were found.
+  /// A node of the grid's outside that makes an inverted tetrahedron cannot be helped by points inside: where a layered
+  /// tube's circle in E_ref and its real one stand differently to the node, the surface itself is folded. True when
+  /// some were found.
   bool leave_out_plane_nodes() {
     bool found = false;
     for (const Tetrahedron& t : tetrahedra_) {
@@ -196,7 +201,8 @@ class CavityMapping::Implementation {
     return -1;
   }
 
-  /// Labels the tetrahedra from the boundary faces inwards and outwards; false when the boundary is not in the triangulation.
+  /// Labels the tetrahedra from the boundary faces inwards and outwards; false when the boundary is not in the
+  /// triangulation.
   bool label_and_collect() {
     std::vector<CellHandle> stack;
     const auto set = [&](CellHandle c, Side side) {
@@ -206,7 +212,8 @@ class CavityMapping::Implementation {
       if (side != Side::flat) stack.push_back(c);
       return true;
     };
-    for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c) c->info().side = Side::unknown;
+    for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c)
+      c->info().side = Side::unknown;
     for (auto c = delaunay_.finite_cells_begin(); c != delaunay_.finite_cells_end(); ++c)
       for (int i = 0; i < 4; ++i) {
         const std::int32_t f = face_of(c, i);
@@ -230,7 +237,8 @@ class CavityMapping::Implementation {
     const std::int32_t apex = c->vertex(opposite)->info();
     const BoundaryFace& face = cavity_.faces[static_cast<std::size_t>(f)];
     if (std::find(face.loop.begin(), face.loop.end(), apex) != face.loop.end()) return Side::flat;
-    return face.normal.dot(reference_[static_cast<std::size_t>(apex)] - face.center) > 0.0 ? Side::inside : Side::outside;
+    return face.normal.dot(reference_[static_cast<std::size_t>(apex)] - face.center) > 0.0 ? Side::inside
+                                                                                           : Side::outside;
   }
 
   bool collect() {
@@ -240,14 +248,16 @@ class CavityMapping::Implementation {
       if (c->info().side != Side::inside) continue;
       Tetrahedron t;
       for (int i = 0; i < 4; ++i) t.vertex[static_cast<std::size_t>(i)] = c->vertex(i)->info();
-      t.reference = six_volumes(reference_[static_cast<std::size_t>(t.vertex[0])], reference_[static_cast<std::size_t>(t.vertex[1])],
-                                reference_[static_cast<std::size_t>(t.vertex[2])], reference_[static_cast<std::size_t>(t.vertex[3])]);
+      t.reference = six_volumes(
+          reference_[static_cast<std::size_t>(t.vertex[0])], reference_[static_cast<std::size_t>(t.vertex[1])],
+          reference_[static_cast<std::size_t>(t.vertex[2])], reference_[static_cast<std::size_t>(t.vertex[3])]);
       volume += t.reference / 6.0;
       tetrahedra_.push_back(t);
     }
     // A boundary that is not respected shows as volume: the smallest face's tetrahedron is far above this rounding.
     if (std::abs(volume - cavity_.reference_volume) > 1e-8 * cavity_.reference_volume)
-      return fail("the tetrahedra do not fill the cavity: " + std::to_string(volume / cavity_.reference_volume - 1.0) + " relative");
+      return fail("the tetrahedra do not fill the cavity: " + std::to_string(volume / cavity_.reference_volume - 1.0) +
+                  " relative");
     return true;
   }
 
@@ -258,10 +268,13 @@ class CavityMapping::Implementation {
 
   // ---- inverted tetrahedra ----
 
-  [[nodiscard]] const Vec3& real_of(const Tetrahedron& t, std::size_t i) const { return real_[static_cast<std::size_t>(t.vertex[i])]; }
+  [[nodiscard]] const Vec3& real_of(const Tetrahedron& t, std::size_t i) const {
+    return real_[static_cast<std::size_t>(t.vertex[i])];
+  }
 
   [[nodiscard]] double ratio(const Tetrahedron& t) const {
-    return six_volumes(real_of(t, 0), real_of(t, 1), real_of(t, 2), real_of(t, 3)) / std::max(t.reference, least_reference_);
+    return six_volumes(real_of(t, 0), real_of(t, 1), real_of(t, 2), real_of(t, 3)) /
+           std::max(t.reference, least_reference_);
   }
 
   [[nodiscard]] std::int64_t count_inverted() const {
@@ -351,7 +364,8 @@ class CavityMapping::Implementation {
     VertexBall ball;
     for (const std::size_t index : around) {
       const Tetrahedron& t = tetrahedra_[index];
-      const auto at = static_cast<std::size_t>(std::distance(t.vertex.begin(), std::find(t.vertex.begin(), t.vertex.end(), vertex)));
+      const auto at = static_cast<std::size_t>(
+          std::distance(t.vertex.begin(), std::find(t.vertex.begin(), t.vertex.end(), vertex)));
       // Opposite facet, ordered so that its normal times the vertex gives the signed volume.
       static constexpr std::array<std::array<std::size_t, 3>, 4> facets{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
       const Vec3& a = real_of(t, facets[at][0]);
@@ -413,25 +427,29 @@ class CavityMapping::Implementation {
 
   // ---- location ----
 
-  [[nodiscard]] bool is_inside(CellHandle c) const { return !delaunay_.is_infinite(c) && c->info().side == Side::inside; }
+  [[nodiscard]] bool is_inside(CellHandle c) const {
+    return !delaunay_.is_infinite(c) && c->info().side == Side::inside;
+  }
 
   [[nodiscard]] std::array<double, 4> barycentric(CellHandle c, const Vec3& x) const {
     std::array<Vec3, 4> p;
-    for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = reference_[static_cast<std::size_t>(c->vertex(i)->info())];
+    for (int i = 0; i < 4; ++i)
+      p[static_cast<std::size_t>(i)] = reference_[static_cast<std::size_t>(c->vertex(i)->info())];
     const double total = six_volumes(p[0], p[1], p[2], p[3]);
-    return {six_volumes(x, p[1], p[2], p[3]) / total, six_volumes(p[0], x, p[2], p[3]) / total, six_volumes(p[0], p[1], x, p[3]) / total,
-            six_volumes(p[0], p[1], p[2], x) / total};
+    return {six_volumes(x, p[1], p[2], p[3]) / total, six_volumes(p[0], x, p[2], p[3]) / total,
+            six_volumes(p[0], p[1], x, p[3]) / total, six_volumes(p[0], p[1], p[2], x) / total};
   }
 
   [[nodiscard]] Vec3 interpolate(CellHandle c, const Vec3& x) const {
     const auto b = barycentric(c, x);
     Vec3 out = Vec3::Zero();
-    for (int i = 0; i < 4; ++i) out += b[static_cast<std::size_t>(i)] * real_[static_cast<std::size_t>(c->vertex(i)->info())];
+    for (int i = 0; i < 4; ++i)
+      out += b[static_cast<std::size_t>(i)] * real_[static_cast<std::size_t>(c->vertex(i)->info())];
     return out;
   }
 
-  /// For points that rounding puts just outside: the nearest tetrahedron inside that holds the point to rounding, else of the first few
-  /// thousand the one that it is least outside of.
+  /// For points that rounding puts just outside: the nearest tetrahedron inside that holds the point to rounding, else
+  /// of the first few thousand the one that it is least outside of.
   [[nodiscard]] CellHandle nearest_inside(CellHandle start, const Vec3& x) const {
     constexpr double holds = -1e-9;  // barycentric coordinate
     constexpr std::size_t most = 5000;
@@ -461,16 +479,17 @@ class CavityMapping::Implementation {
   Delaunay delaunay_;
   mutable CellHandle hint_;
   std::vector<std::vector<std::int32_t>> faces_at_;
-  std::vector<double> low_;   ///< per boundary face: interval of empty spheres with all inserted points
+  std::vector<double> low_;  ///< per boundary face: interval of empty spheres with all inserted points
   std::vector<double> high_;
   std::vector<Vec3> reference_;  ///< per vertex of the triangulation
   std::vector<Vec3> real_;
-  std::size_t fixed_ = 0;        ///< vertices before this one do not move
+  std::size_t fixed_ = 0;                   ///< vertices before this one do not move
   std::vector<std::uint8_t> is_left_out_;   ///< per plane node of the cavity
   std::vector<std::size_t> plane_node_of_;  ///< per inserted plane node: its place in the cavity's
   std::vector<Tetrahedron> tetrahedra_;
   std::vector<std::vector<std::size_t>> balls_;  ///< per free vertex
-  /// Six volumes, m3, below which a reference tetrahedron counts as this large: a sliver's ratio must not rule its ball.
+  /// Six volumes, m3, below which a reference tetrahedron counts as this large: a sliver's ratio must not rule its
+  /// ball.
   double least_reference_ = 1e-9;
 };
 

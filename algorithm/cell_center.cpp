@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Source: S. Agmon, The relaxation method for linear inequalities, Canadian Journal of Mathematics 6 (1954) (key Agmon).
+// Source: S. Agmon, The relaxation method for linear inequalities, Canadian Journal of Mathematics 6 (1954) (key
+// Agmon).
 #include "algorithm/cell_center.h"
 
 #include <limits>

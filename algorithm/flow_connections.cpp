@@ -68,7 +68,8 @@ class Connector {
     const bool is_swapped = b < a;
     const HalfFace first{a, g.centroid, g.area_vector, info, {a, b}};
     const HalfFace second{b, g.centroid, -g.area_vector, info, {a, b}};
-    const bool is_transition = mesh_.cells.kind[a] == CellKind::transition && mesh_.cells.kind[b] == CellKind::transition;
+    const bool is_transition =
+        mesh_.cells.kind[a] == CellKind::transition && mesh_.cells.kind[b] == CellKind::transition;
     const double factor = is_transition ? radial_flow_.factor(a, b, points) : 1.0;
     const double t1 = factor * half(first);
     const double t2 = factor * half(second);
@@ -85,7 +86,9 @@ class Connector {
     c.non_orthogonality.push_back(degrees_between(normal, mesh_.cells.center[b] - mesh_.cells.center[a]));
     c.k_non_orthogonality.push_back(std::max(k_angle(first), k_angle(second)));
     c.planarity.push_back(planarity(points, g));
-    c.kind.push_back(info.is_pinch != 0 ? ConnectionKind::pinch_out : info.is_fault != 0 ? ConnectionKind::fault : ConnectionKind::face);
+    c.kind.push_back(info.is_pinch != 0   ? ConnectionKind::pinch_out
+                     : info.is_fault != 0 ? ConnectionKind::fault
+                                          : ConnectionKind::face);
     c.multiplier.push_back(1.0);
   }
 
@@ -106,7 +109,8 @@ class Connector {
     return h.info.role == FaceRole::lateral ? beyond_tube_half(h, k, d) : linear_half(k, d, h.area_vector);
   }
 
-  /// Between the outermost circle and a transition cell's site the flow is still radial: the linear half is 15 to 30 % too low there.
+  /// Between the outermost circle and a transition cell's site the flow is still radial: the linear half is 15 to 30 %
+  /// too low there.
   [[nodiscard]] double beyond_tube_half(const HalfFace& h, const Vec3& k, const Vec3& d) const {
     const auto [a, b] = h.cells;
     const CellId radial = a == h.cell ? b : a;
@@ -115,10 +119,11 @@ class Connector {
     const Vec3 n = h.area_vector.normalized();
     const double radius = circle_radius(*tube_of(radial).tube, at, m.rings);
     const double theta = 2.0 * std::numbers::pi / m.sectors;
-    // The site stands off the chord by its distance along the normal. Very near the chord's middle it is inside the circle that the outermost
-    // ring's half ends at: half the linear drop is kept as the least.
+    // The site stands off the chord by its distance along the normal. Very near the chord's middle it is inside the
+    // circle that the outermost ring's half ends at: half the linear drop is kept as the least.
     const double distance = std::abs(n.dot(d));
-    const double drop = std::max(std::log((radius * std::cos(0.5 * theta) + distance) / radius), 0.5 * distance / radius);
+    const double drop =
+        std::max(std::log((radius * std::cos(0.5 * theta) + distance) / radius), 0.5 * distance / radius);
     return drop > 0.0 ? n.dot(k.cwiseProduct(n)) * length_along_well(m, at, m.rings) * theta / drop : 0.0;
   }
 
@@ -140,13 +145,16 @@ class Connector {
 
   /// Radius of a circle; in a layered tube it is a circle in plan on a horizon that may dip.
   static double circle_radius(const Tube& tube, const RadialIndex& at, int circle) {
-    const Vec3 d = tube.real.point(at.segment, circle, at.sector) - tube.real.axis[static_cast<std::size_t>(at.segment)];
+    const Vec3 d =
+        tube.real.point(at.segment, circle, at.sector) - tube.real.axis[static_cast<std::size_t>(at.segment)];
     return tube.layered ? std::hypot(d.x(), d.y()) : d.norm();
   }
 
   /// Mean distance of the two ends of a sector's face on a circle, m.
   static double length_along_well(const RadialMesh& m, const RadialIndex& at, int circle) {
-    const auto edge = [&](int sector) { return (m.point(at.segment + 1, circle, sector) - m.point(at.segment, circle, sector)).norm(); };
+    const auto edge = [&](int sector) {
+      return (m.point(at.segment + 1, circle, sector) - m.point(at.segment, circle, sector)).norm();
+    };
     return 0.5 * (edge(at.sector) + edge(at.sector + 1));
   }
 
@@ -162,7 +170,8 @@ class Connector {
       case FaceRole::ring:
       case FaceRole::lateral: {
         const double r_face = h.info.circle == at.ring ? inner : outer;
-        return along_normal * length_along_well(m, at, h.info.circle) * theta / std::abs(std::log(r_face / mean_pressure_radius(inner, outer)));
+        return along_normal * length_along_well(m, at, h.info.circle) * theta /
+               std::abs(std::log(r_face / mean_pressure_radius(inner, outer)));
       }
       case FaceRole::sector: {
         // Flow around the axis: a length r theta / 2 for each radius, L dr wide.
@@ -195,12 +204,15 @@ double mean_pressure_radius(double inner, double outer) {
   return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
 }
 
-void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly) { Connector(grid, host, assembly).connect(); }
+void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly) {
+  Connector(grid, host, assembly).connect();
+}
 
 double open_length(const Well& well, double from, double to) {
   // Without intervals the whole path is open: a layered tube goes on beyond its ends.
   if (well.open.empty())
-    return std::max(0.0, std::min(to, well.trajectory.measured_depth.back()) - std::max(from, well.trajectory.measured_depth.front()));
+    return std::max(0.0, std::min(to, well.trajectory.measured_depth.back()) -
+                             std::max(from, well.trajectory.measured_depth.front()));
   double length = 0.0;
   for (const MeasuredDepthRange& o : well.open) length += std::max(0.0, std::min(to, o.to) - std::max(from, o.from));
   return std::min(length, to - from);
@@ -220,9 +232,11 @@ std::vector<WellConnection> connect_tube(const Mesh& mesh, const PlacedTube& pla
       const CellId cell = placed.cell(k, s, 0);
       const double inner = (m.point(k, 0, s) - m.axis[station]).norm();
       const double outer = (m.point(k, 1, s) - m.axis[station]).norm();
-      const Vec3 middle = 0.25 * (m.point(k, 0, s) + m.point(k, 0, s + 1) + m.point(k + 1, 0, s) + m.point(k + 1, 0, s + 1));
+      const Vec3 middle =
+          0.25 * (m.point(k, 0, s) + m.point(k, 0, s + 1) + m.point(k + 1, 0, s) + m.point(k + 1, 0, s + 1));
       const Vec3 n = (middle - 0.5 * (m.axis[station] + m.axis[station + 1])).normalized();
-      const double length = 0.5 * ((m.point(k + 1, 0, s) - m.point(k, 0, s)).norm() + (m.point(k + 1, 0, s + 1) - m.point(k, 0, s + 1)).norm());
+      const double length = 0.5 * ((m.point(k + 1, 0, s) - m.point(k, 0, s)).norm() +
+                                   (m.point(k + 1, 0, s + 1) - m.point(k, 0, s + 1)).norm());
       const double permeability = n.dot(flow_permeability(mesh.cells, cell).cwiseProduct(n));
       const double theta = 2.0 * std::numbers::pi / m.sectors;
       const double resistance = std::log(mean_pressure_radius(inner, outer) / inner) + well.skin;

@@ -10,7 +10,8 @@ namespace wellknit {
 
 namespace {
 
-/// Place (u, v) of a plan position in a patch by Newton's method on its bilinear plan; the patch may be any convex quadrilateral.
+/// Place (u, v) of a plan position in a patch by Newton's method on its bilinear plan; the patch may be any convex
+/// quadrilateral.
 std::optional<std::array<double, 2>> plan_place(const std::array<Vec3, 4>& c, double x, double y) {
   double u = 0.5;
   double v = 0.5;
@@ -28,7 +29,8 @@ std::optional<std::array<double, 2>> plan_place(const std::array<Vec3, 4>& c, do
     if (det == 0.0) return std::nullopt;
     const double du = (rx * yv - ry * xv) / det;
     const double dv = (ry * xu - rx * yu) / det;
-    // A patch is left behind by at most two of its widths a step: far points are reached by walking, not by extrapolation.
+    // A patch is left behind by at most two of its widths a step: far points are reached by walking, not by
+    // extrapolation.
     u = std::clamp(u - du, -2.0, 3.0);
     v = std::clamp(v - dv, -2.0, 3.0);
     if (std::abs(du) + std::abs(dv) < 1e-14) break;
@@ -45,8 +47,8 @@ std::array<Vec3, 4> Horizon::patch(std::array<std::int64_t, 2> column) const {
   std::array<Vec3, 4> out;
   for (int dj = 0; dj < 2; ++dj)
     for (int di = 0; di < 2; ++di)
-      out[static_cast<std::size_t>(di + 2 * dj)] =
-          grid_.pillar_point(column[0] + di, column[1] + dj, grid_.zcorn[grid_.zcorn_index(cell, di, dj, is_base ? 1 : 0)]);
+      out[static_cast<std::size_t>(di + 2 * dj)] = grid_.pillar_point(
+          column[0] + di, column[1] + dj, grid_.zcorn[grid_.zcorn_index(cell, di, dj, is_base ? 1 : 0)]);
   return out;
 }
 
@@ -64,7 +66,8 @@ std::optional<HorizonPoint> Horizon::at(double x, double y, std::array<std::int6
     if (v < -slack) --next[1];
     if (v > 1.0 + slack) ++next[1];
     if (next == column) {
-      const Vec3 p = (1 - u) * (1 - v) * corners[0] + u * (1 - v) * corners[1] + (1 - u) * v * corners[2] + u * v * corners[3];
+      const Vec3 p =
+          (1 - u) * (1 - v) * corners[0] + u * (1 - v) * corners[1] + (1 - u) * v * corners[2] + u * v * corners[3];
       return HorizonPoint{column, u, v, Vec3(x, y, p.z())};
     }
     for (std::size_t a = 0; a < 2; ++a)

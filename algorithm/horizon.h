@@ -27,8 +27,8 @@ class Horizon {
 
   /// The corners of the patch of a column: (di, dj) at di + 2 dj.
   [[nodiscard]] std::array<Vec3, 4> patch(std::array<std::int64_t, 2> column) const;
-  /// The point above or below (x, y), walking from a column near by. Empty outside of the grid, or where a throw or a fold leaves
-  /// no single answer.
+  /// The point above or below (x, y), walking from a column near by. Empty outside of the grid, or where a throw or a
+  /// fold leaves no single answer.
   [[nodiscard]] std::optional<HorizonPoint> at(double x, double y, std::array<std::int64_t, 2> start) const;
 
  private:

@@ -40,8 +40,8 @@ struct HostFaces {
 
 struct HostMesh {
   IdVector<VertexId, Vec3> vertices;
-  /// 8 per source cell, inactive ones too: vertex of corner (di, dj, dk) at 8 cell + di + 2 dj + 4 dk. Corners of one pillar
-  /// whose depths differ by no more than the merge tolerance share a vertex.
+  /// 8 per source cell, inactive ones too: vertex of corner (di, dj, dk) at 8 cell + di + 2 dj + 4 dk. Corners of one
+  /// pillar whose depths differ by no more than the merge tolerance share a vertex.
   std::vector<VertexId> corner_vertex;
   HostFaces faces;
   IdVector<HostCellId, double> volume;        ///< m3, positive: eight corners with bilinear faces; all source cells

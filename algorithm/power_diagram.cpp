@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The triangulation's combinatorics come from CGAL's exact predicates on the sites as given; coordinates of dual points
-// are ours. Degeneracy is systematic (method.md §9): a dual point that is a cavity vertex is found from the sites' own lists, and a flat
-// tetrahedron, whose dual point means nothing, takes that of a neighbour: the exact diagram does not have it.
+// are ours. Degeneracy is systematic (method.md §9): a dual point that is a cavity vertex is found from the sites' own
+// lists, and a flat tetrahedron, whose dual point means nothing, takes that of a neighbour: the exact diagram does not
+// have it.
 #include "algorithm/power_diagram.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -32,24 +33,26 @@ struct SiteCode {
   std::int32_t plane = -1;  ///< image in this plane; -1: none
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<SiteCode, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<SiteCode, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Triangulation = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
-/// Below this ratio of determinant to the product of edge lengths a tetrahedron of sites is flat: exact degeneracy shows as
-/// the sites' resolution over their distance, 1e-11; generic tetrahedra stay above 1e-5.
+/// Below this ratio of determinant to the product of edge lengths a tetrahedron of sites is flat: exact degeneracy
+/// shows as the sites' resolution over their distance, 1e-11; generic tetrahedra stay above 1e-5.
 constexpr double flat_ratio = 1e-8;
-/// Dual points of neighbours closer than this part of their distance to the sites are one vertex: rounding of the sites times the
-/// condition of ordinary tetrahedra.
+/// Dual points of neighbours closer than this part of their distance to the sites are one vertex: rounding of the sites
+/// times the condition of ordinary tetrahedra.
 constexpr double merge_ratio = 1e-7;
 
 /// The dual of one tetrahedron.
 struct Dual {
   Vec3 point = Vec3::Zero();
-  double quality = 0.0;        ///< determinant ratio
-  double scale = 0.0;          ///< distance to its sites, m
-  std::int32_t anchor = -1;    ///< the cavity vertex that it is
-  std::uint8_t planes = 0;     ///< mirror planes that it lies on
+  double quality = 0.0;      ///< determinant ratio
+  double scale = 0.0;        ///< distance to its sites, m
+  std::int32_t anchor = -1;  ///< the cavity vertex that it is
+  std::uint8_t planes = 0;   ///< mirror planes that it lies on
   bool is_flat = false;
 };
 
@@ -72,7 +75,8 @@ class UnionFind {
 
 class DiagramBuilder {
  public:
-  DiagramBuilder(const Cavity& cavity, const Sites& sites) : cavity_(cavity), sites_(sites), inner_count_(sites.inner.size()) {}
+  DiagramBuilder(const Cavity& cavity, const Sites& sites)
+      : cavity_(cavity), sites_(sites), inner_count_(sites.inner.size()) {}
 
   PowerDiagram build() {
     triangulate();
@@ -92,7 +96,8 @@ class DiagramBuilder {
     const auto add = [&](const Vec3& c, double weight, SiteCode code) {
       points.emplace_back(Kernel::Weighted_point_3(Kernel::Point_3(c.x(), c.y(), c.z()), weight), code);
     };
-    for (std::size_t s = 0; s < inner_count_; ++s) add(sites_.inner[s].center, sites_.inner[s].weight, {static_cast<std::int32_t>(s), -1});
+    for (std::size_t s = 0; s < inner_count_; ++s)
+      add(sites_.inner[s].center, sites_.inner[s].weight, {static_cast<std::int32_t>(s), -1});
     for (std::size_t s = 0; s < sites_.outer.size(); ++s)
       add(sites_.outer[s].center, sites_.outer[s].weight, {static_cast<std::int32_t>(inner_count_ + s), -1});
     for (std::size_t p = 0; p < cavity_.planes.size(); ++p)
@@ -119,7 +124,9 @@ class DiagramBuilder {
     }
   }
 
-  [[nodiscard]] bool is_inner(const SiteCode& code) const { return code.plane < 0 && static_cast<std::size_t>(code.site) < inner_count_; }
+  [[nodiscard]] bool is_inner(const SiteCode& code) const {
+    return code.plane < 0 && static_cast<std::size_t>(code.site) < inner_count_;
+  }
 
   [[nodiscard]] bool touches_inner(CellHandle c) const {
     for (int i = 0; i < 4; ++i)
@@ -135,7 +142,8 @@ class DiagramBuilder {
     const MirrorPlane& plane = cavity_.planes[static_cast<std::size_t>(code.plane)];
     std::vector<std::int32_t> on_plane;
     for (const auto v : list)
-      if (cavity_.vertices[static_cast<std::size_t>(v)].reference[plane.axis] == plane.coordinate) on_plane.push_back(v);
+      if (cavity_.vertices[static_cast<std::size_t>(v)].reference[plane.axis] == plane.coordinate)
+        on_plane.push_back(v);
     return on_plane;
   }
 
@@ -157,7 +165,8 @@ class DiagramBuilder {
       for (int j = 0; j < 4; ++j) {
         const SiteCode& a = c->vertex(i)->info();
         const SiteCode& b = c->vertex(j)->info();
-        if (a.plane < 0 && b.plane >= 0 && a.site == b.site) planes = static_cast<std::uint8_t>(planes | (1U << static_cast<unsigned>(b.plane)));
+        if (a.plane < 0 && b.plane >= 0 && a.site == b.site)
+          planes = static_cast<std::uint8_t>(planes | (1U << static_cast<unsigned>(b.plane)));
       }
     return planes;
   }
@@ -301,7 +310,8 @@ class DiagramBuilder {
   void extract_faces() {
     double largest = 0.0;
     bool is_reversed = false;  // of CGAL's circulation, told by the largest polygon
-    for (auto e = triangulation_.finite_edges_begin(); e != triangulation_.finite_edges_end() && diagram_.failure.empty(); ++e) {
+    for (auto e = triangulation_.finite_edges_begin();
+         e != triangulation_.finite_edges_end() && diagram_.failure.empty(); ++e) {
       auto a = e->first->vertex(e->second);
       auto b = e->first->vertex(e->third);
       if (!is_inner(a->info()) && !is_inner(b->info())) continue;
@@ -335,7 +345,8 @@ class DiagramBuilder {
     if (is_reversed)
       for (DiagramFace& f : diagram_.faces) std::reverse(f.loop.begin(), f.loop.end());
     const auto key = [](const DiagramFace& f) { return std::tie(f.cell, f.other_kind, f.other, f.loop); };
-    std::sort(diagram_.faces.begin(), diagram_.faces.end(), [&](const DiagramFace& f, const DiagramFace& g) { return key(f) < key(g); });
+    std::sort(diagram_.faces.begin(), diagram_.faces.end(),
+              [&](const DiagramFace& f, const DiagramFace& g) { return key(f) < key(g); });
   }
 
   /// Rotates a loop to the first of its rotations in lexicographical order.
@@ -375,15 +386,17 @@ class DiagramBuilder {
   const Sites& sites_;
   std::size_t inner_count_;
   Triangulation triangulation_;
-  std::vector<CellHandle> cells_;      ///< finite ones with an inner site
-  std::vector<Dual> duals_;            ///< per cell
+  std::vector<CellHandle> cells_;        ///< finite ones with an inner site
+  std::vector<Dual> duals_;              ///< per cell
   std::vector<std::int32_t> vertex_of_;  ///< per cell
   PowerDiagram diagram_;
 };
 
 }  // namespace
 
-PowerDiagram build_power_diagram(const Cavity& cavity, const Sites& sites) { return DiagramBuilder(cavity, sites).build(); }
+PowerDiagram build_power_diagram(const Cavity& cavity, const Sites& sites) {
+  return DiagramBuilder(cavity, sites).build();
+}
 
 BoundaryMatch match_boundary(const Cavity& cavity, const Sites& sites, const PowerDiagram& diagram) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> face_of;

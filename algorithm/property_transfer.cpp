@@ -29,7 +29,8 @@ struct Corners {
   std::array<Vec3, 4> p;
 };
 
-/// Samples a tetrahedron, halving its longest edge until a part is small beside the source cells, and adds volumes by source cell.
+/// Samples a tetrahedron, halving its longest edge until a part is small beside the source cells, and adds volumes by
+/// source cell.
 class TetrahedronSampler {
  public:
   TetrahedronSampler(const CellLocator& locator, double part_volume) : locator_(locator), part_volume_(part_volume) {}
@@ -88,7 +89,8 @@ std::vector<std::vector<FaceId>> faces_of_cells(const Mesh& mesh) {
   return out;
 }
 
-std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locator, double part_volume, std::int64_t first_made) {
+std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locator, double part_volume,
+                                     std::int64_t first_made) {
   const auto faces = faces_of_cells(mesh);
   const std::size_t first = static_cast<std::size_t>(first_made);
   std::vector<std::vector<Overlap>> parts(mesh.cells.size() - first);
@@ -108,8 +110,8 @@ std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locato
   return out;
 }
 
-/// Scales rows and columns in turn until sources give their volumes and cells are filled (iterative proportional fitting), sources
-/// last: their sums are what conserves pore volume.
+/// Scales rows and columns in turn until sources give their volumes and cells are filled (iterative proportional
+/// fitting), sources last: their sums are what conserves pore volume.
 void balance(std::vector<Overlap>& overlaps, const HostMesh& host, const Mesh& mesh) {
   std::vector<double> by_cell(mesh.cells.size());
   std::vector<double> by_source(host.volume.size());
@@ -124,8 +126,8 @@ void balance(std::vector<Overlap>& overlaps, const HostMesh& host, const Mesh& m
 }
 
 /// Source cells that no sample met give their volume to the made cell with the nearest centre.
-void add_unmet(const CornerPointGrid& grid, const std::vector<TransitionMesh>& cavities, const HostMesh& host, const Mesh& mesh,
-               std::int64_t first_made, std::vector<Overlap>& overlaps) {
+void add_unmet(const CornerPointGrid& grid, const std::vector<TransitionMesh>& cavities, const HostMesh& host,
+               const Mesh& mesh, std::int64_t first_made, std::vector<Overlap>& overlaps) {
   std::vector<std::uint8_t> is_met(static_cast<std::size_t>(grid.cell_count()), 0);
   for (const Overlap& o : overlaps) is_met[o.source.index()] = 1;
   for (const TransitionMesh& c : cavities)
@@ -147,14 +149,19 @@ void add_unmet(const CornerPointGrid& grid, const std::vector<TransitionMesh>& c
 
 /// Samples that fell into cells that were kept, by the chord error of curved faces, are not overlaps.
 void drop_kept(const Assembly& assembly, const HostMesh& host, std::vector<Overlap>& overlaps) {
-  std::erase_if(overlaps, [&](const Overlap& o) { return assembly.cell_of[o.source].is_valid() || !(host.volume[o.source] > 0.0); });
+  std::erase_if(overlaps, [&](const Overlap& o) {
+    return assembly.cell_of[o.source].is_valid() || !(host.volume[o.source] > 0.0);
+  });
 }
 
-void write_transfer(const CornerPointGrid& grid, const HostMesh& host, std::vector<Overlap> overlaps, Assembly& assembly) {
+void write_transfer(const CornerPointGrid& grid, const HostMesh& host, std::vector<Overlap> overlaps,
+                    Assembly& assembly) {
   for (std::int64_t c = 0; c < grid.cell_count(); ++c)
-    if (const CellId cell = assembly.cell_of[HostCellId(c)]; cell.is_valid()) overlaps.push_back({HostCellId(c), cell, host.volume[HostCellId(c)]});
-  std::sort(overlaps.begin(), overlaps.end(),
-            [](const Overlap& a, const Overlap& b) { return a.source != b.source ? a.source < b.source : a.cell < b.cell; });
+    if (const CellId cell = assembly.cell_of[HostCellId(c)]; cell.is_valid())
+      overlaps.push_back({HostCellId(c), cell, host.volume[HostCellId(c)]});
+  std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
+    return a.source != b.source ? a.source < b.source : a.cell < b.cell;
+  });
   Transfer& transfer = assembly.mesh.transfer;
   transfer.start.assign(static_cast<std::size_t>(grid.cell_count()) + 1, 0);
   for (const Overlap& o : overlaps) {
@@ -165,23 +172,28 @@ void write_transfer(const CornerPointGrid& grid, const HostMesh& host, std::vect
   for (std::size_t c = 0; c < static_cast<std::size_t>(grid.cell_count()); ++c) {
     transfer.start[c + 1] += transfer.start[c];
     double sum = 0.0;
-    for (std::int64_t at = transfer.start[c]; at < transfer.start[c + 1]; ++at) sum += transfer.fraction[static_cast<std::size_t>(at)];
-    for (std::int64_t at = transfer.start[c]; at < transfer.start[c + 1]; ++at) transfer.fraction[static_cast<std::size_t>(at)] /= sum;
+    for (std::int64_t at = transfer.start[c]; at < transfer.start[c + 1]; ++at)
+      sum += transfer.fraction[static_cast<std::size_t>(at)];
+    for (std::int64_t at = transfer.start[c]; at < transfer.start[c + 1]; ++at)
+      transfer.fraction[static_cast<std::size_t>(at)] /= sum;
   }
 }
 
-double value_or(const std::vector<double>& values, HostCellId cell, double otherwise) { return values.empty() ? otherwise : values[cell.index()]; }
+double value_or(const std::vector<double>& values, HostCellId cell, double otherwise) {
+  return values.empty() ? otherwise : values[cell.index()];
+}
 
 /// Sums over the sources of each mesh cell.
 struct Sums {
-  double bulk = 0.0;         ///< of active sources, m3
+  double bulk = 0.0;  ///< of active sources, m3
   double porosity = 0.0;
   double net_to_gross = 0.0;
   double pore_volume = 0.0;
-  double net_bulk = 0.0;             ///< m3
-  Vec3 permeability = Vec3::Zero();  ///< of net rock, arithmetic along x and y: times the mean net-to-gross it is the mean of k * ntg
+  double net_bulk = 0.0;  ///< m3
+  Vec3 permeability =
+      Vec3::Zero();  ///< of net rock, arithmetic along x and y: times the mean net-to-gross it is the mean of k * ntg
   Vec3 gross_permeability = Vec3::Zero();
-  double resistance = 0.0;           ///< volume over vertical permeability
+  double resistance = 0.0;  ///< volume over vertical permeability
 };
 
 /// Arithmetic horizontally, harmonic vertically; porosity and net-to-gross by volume; inactive sources give nothing.

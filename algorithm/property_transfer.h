@@ -9,9 +9,9 @@
 
 namespace wellknit {
 
-/// Fills the mesh's transfer map and all cell properties. Overlap volumes are sampled in the real space and balanced so that each source
-/// cell gives away all of its volume and each made cell is filled: pore volume is conserved to rounding in every source cell.
-/// Parallel over cells; the result does not depend on it.
+/// Fills the mesh's transfer map and all cell properties. Overlap volumes are sampled in the real space and balanced so
+/// that each source cell gives away all of its volume and each made cell is filled: pore volume is conserved to
+/// rounding in every source cell. Parallel over cells; the result does not depend on it.
 void transfer_properties(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
                          const std::vector<TransitionMesh>& cavities, Assembly& assembly);
 

@@ -18,7 +18,8 @@ Vec3 foot_on(const Vec3& from, const Vec3& to, const Vec3& point, double& parame
   return from + std::clamp(parameter, 0.0, 1.0) * along;
 }
 
-/// Flux of grad ln r through a triangle by its three edge middles, r the distance from the line through `foot` along `axis`.
+/// Flux of grad ln r through a triangle by its three edge middles, r the distance from the line through `foot` along
+/// `axis`.
 double triangle_flux(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& foot, const Vec3& axis) {
   const Vec3 area = 0.5 * (b - a).cross(c - a);
   double sum = 0.0;
@@ -77,7 +78,9 @@ RadialFlow::Nearest RadialFlow::nearest_axis(std::size_t cavity, const Vec3& poi
 
 double RadialFlow::factor(CellId first, CellId second, std::span<const Vec3> face) const {
   const auto& starts = assembly_.first_transition_cell;
-  const auto cavity = static_cast<std::size_t>(std::distance(starts.begin(), std::upper_bound(starts.begin(), starts.end(), first.value()))) - 1;
+  const auto cavity = static_cast<std::size_t>(std::distance(
+                          starts.begin(), std::upper_bound(starts.begin(), starts.end(), first.value()))) -
+                      1;
   const PolygonGeometry g = polygon_geometry(face);
   const Nearest near = nearest_axis(cavity, g.mean);
   if (near.is_beyond_end || !(near.distance > 0.0) || !(g.area > 0.0)) return 1.0;
@@ -100,7 +103,8 @@ double RadialFlow::factor(CellId first, CellId second, std::span<const Vec3> fac
   const double drop = std::log(r2 / r1);
   const double radial_part = std::abs(drop) * near.distance / line.norm();  // 1: straight out, 0: around the well
   double flux = 0.0;
-  for (std::size_t i = 0; i < face.size(); ++i) flux += triangle_flux(g.mean, face[i], face[(i + 1) % face.size()], near.foot, axis);
+  for (std::size_t i = 0; i < face.size(); ++i)
+    flux += triangle_flux(g.mean, face[i], face[(i + 1) % face.size()], near.foot, axis);
   const double linear = std::abs(g.area_vector.dot(line)) / line.squaredNorm();
   if (radial_part < 0.1 || !(linear > 0.0)) return 1.0;
   const double full = std::clamp(std::abs(flux / drop) / linear, 0.5, 2.0);

@@ -68,7 +68,8 @@ std::vector<double> circle_radii(const RadialOptions& options) {
   }
   radii.back() = outer;
   for (std::size_t i = 1; i < radii.size(); ++i)
-    if (!(radii[i] > radii[i - 1])) throw InvalidInput("the rings' growth leaves some of them without width: choose a growth nearer to 1");
+    if (!(radii[i] > radii[i - 1]))
+      throw InvalidInput("the rings' growth leaves some of them without width: choose a growth nearer to 1");
   return radii;
 }
 
@@ -126,7 +127,8 @@ std::vector<Vec3> smoothed_stations(std::span<const Vec3> stations, double weigh
   second.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseMatrix<double> identity(n, n);
   identity.setIdentity();
-  const Eigen::SparseMatrix<double> system = identity + weight * Eigen::SparseMatrix<double>(second.transpose() * second);
+  const Eigen::SparseMatrix<double> system =
+      identity + weight * Eigen::SparseMatrix<double>(second.transpose() * second);
   Eigen::MatrixXd right(n, 3);
   for (Eigen::Index k = 0; k < n; ++k) right.row(k) = stations[static_cast<std::size_t>(k)].transpose();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(system);
@@ -136,7 +138,8 @@ std::vector<Vec3> smoothed_stations(std::span<const Vec3> stations, double weigh
   return out;
 }
 
-RadialMesh sweep_rings(std::span<const RingFrame> frames, std::span<const double> radii, int sectors, double start_angle) {
+RadialMesh sweep_rings(std::span<const RingFrame> frames, std::span<const double> radii, int sectors,
+                       double start_angle) {
   RadialMesh mesh;
   mesh.segments = static_cast<int>(frames.size()) - 1;
   mesh.sectors = sectors;

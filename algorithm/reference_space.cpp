@@ -19,9 +19,10 @@ double mean_edge(const std::array<Vec3, 8>& corners, int axis) {
   return sum / 4.0;
 }
 
-/// Mean spacing of slab `index` of an axis over the cells of the region; only_existing: over those alone. 0 when there is none.
-double mean_spacing(const CornerPointGrid& grid, const HostMesh& host, const CellRange& region, int axis, std::int64_t index,
-                    bool only_existing) {
+/// Mean spacing of slab `index` of an axis over the cells of the region; only_existing: over those alone. 0 when there
+/// is none.
+double mean_spacing(const CornerPointGrid& grid, const HostMesh& host, const CellRange& region, int axis,
+                    std::int64_t index, bool only_existing) {
   CellRange slab = region;
   const auto a = static_cast<std::size_t>(axis);
   slab.low[a] = index;
@@ -59,9 +60,11 @@ ReferenceSpace::ReferenceSpace(const CornerPointGrid& grid, const HostMesh& host
     planes.assign(static_cast<std::size_t>(n) + 1, 0.0);
     const double sign = host.left_handed && axis == 1 ? -1.0 : 1.0;
     for (std::int64_t i = middle; i < n; ++i)
-      planes[static_cast<std::size_t>(i) + 1] = planes[static_cast<std::size_t>(i)] + sign * spacing[static_cast<std::size_t>(i)];
+      planes[static_cast<std::size_t>(i) + 1] =
+          planes[static_cast<std::size_t>(i)] + sign * spacing[static_cast<std::size_t>(i)];
     for (std::int64_t i = middle; i > 0; --i)
-      planes[static_cast<std::size_t>(i) - 1] = planes[static_cast<std::size_t>(i)] - sign * spacing[static_cast<std::size_t>(i) - 1];
+      planes[static_cast<std::size_t>(i) - 1] =
+          planes[static_cast<std::size_t>(i)] - sign * spacing[static_cast<std::size_t>(i) - 1];
   }
 }
 

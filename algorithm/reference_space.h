@@ -35,27 +35,31 @@ struct Box {
 /// Planes of E_ref. In a left-handed grid the second axis runs backwards, so that the mapping keeps orientation.
 class ReferenceSpace {
  public:
-  /// Spacings are the mean edge lengths of the existing cells of `region` (of all cells where none exists), rounded to a multiple of
-  /// reference_resolution so that mirror images are exact.
+  /// Spacings are the mean edge lengths of the existing cells of `region` (of all cells where none exists), rounded to
+  /// a multiple of reference_resolution so that mirror images are exact.
   ReferenceSpace(const CornerPointGrid& grid, const HostMesh& host, const CellRange& region);
 
   /// Coordinate of plane `index` (0 … n) of an axis.
   [[nodiscard]] double plane(int axis, std::int64_t index) const {
     return planes_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index)];
   }
-  [[nodiscard]] Vec3 node(std::int64_t i, std::int64_t j, std::int64_t k) const { return {plane(0, i), plane(1, j), plane(2, k)}; }
+  [[nodiscard]] Vec3 node(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return {plane(0, i), plane(1, j), plane(2, k)};
+  }
   [[nodiscard]] Box box(const std::array<std::int64_t, 3>& cell) const;
   /// phi_0 of a located point.
   [[nodiscard]] Vec3 map(const std::array<std::int64_t, 3>& cell, const Vec3& uvw) const;
-  /// The place among the planes of a coordinate: index of the cell (0 … n-1, the end ones also outside) and the fraction in it.
+  /// The place among the planes of a coordinate: index of the cell (0 … n-1, the end ones also outside) and the
+  /// fraction in it.
   [[nodiscard]] std::pair<std::int64_t, double> place(int axis, double coordinate) const;
 
  private:
   std::array<std::vector<double>, 3> planes_;
 };
 
-/// Coordinates of E_ref and of the sites are multiples of this, m: reflections in the planes are then exact in doubles up to 2^14 m from the
-/// middle of a cavity, and the faces of the smallest cells (0.1 m, at a bore) are planar to 1e-10.
+/// Coordinates of E_ref and of the sites are multiples of this, m: reflections in the planes are then exact in doubles
+/// up to 2^14 m from the middle of a cavity, and the faces of the smallest cells (0.1 m, at a bore) are planar to
+/// 1e-10.
 inline constexpr double reference_resolution = 0x1p-38;
 
 /// Nearest multiple of reference_resolution.

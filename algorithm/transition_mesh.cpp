@@ -10,6 +10,7 @@
 
 #include "algorithm/cavity_mapping.h"
 #include "algorithm/cell_center.h"
+#include "algorithm/short_edges.h"
 
 namespace wellknit {
 
@@ -29,7 +30,8 @@ std::vector<std::vector<OutwardFace>> faces_by_cell(const TransitionMesh& mesh) 
     for (const auto v : f.loop) points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
     const PolygonGeometry g = polygon_geometry(points);
     out[static_cast<std::size_t>(f.cell)].push_back({g.mean, g.area_vector});
-    if (f.other_kind == DiagramFace::Other::inner) out[static_cast<std::size_t>(f.other)].push_back({g.mean, -g.area_vector});
+    if (f.other_kind == DiagramFace::Other::inner)
+      out[static_cast<std::size_t>(f.other)].push_back({g.mean, -g.area_vector});
   }
   return out;
 }
@@ -45,8 +47,9 @@ std::optional<std::string> choose_centers(TransitionMesh& mesh) {
   const auto faces = faces_by_cell(mesh);
   for (std::size_t c = 0; c < mesh.centers.size(); ++c) {
     const double volume = volume_of(faces[c]);
-    if (!(volume > 0.0)) return fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) is inside out after the mapping", mesh.centers[c].x(),
-                                            mesh.centers[c].y(), mesh.centers[c].z());
+    if (!(volume > 0.0))
+      return fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) is inside out after the mapping",
+                         mesh.centers[c].x(), mesh.centers[c].y(), mesh.centers[c].z());
     const double size = std::cbrt(volume);
     // The site stays wherever it sees its cell: moving it costs orthogonality.
     if (smallest_height(faces[c], mesh.centers[c]) > 1e-6 * size) continue;
@@ -61,7 +64,8 @@ std::optional<std::string> choose_centers(TransitionMesh& mesh) {
 /// Boundary vertices have their exact real positions; the others and the sites go through phi.
 void map_back(const CavityMapping& mapping, const Sites& sites, const PowerDiagram& diagram, TransitionMesh& mesh) {
   for (const CavityVertex& v : mesh.cavity.vertices) mesh.vertices.push_back(v.real);
-  for (std::size_t v = mesh.vertices.size(); v < diagram.vertices.size(); ++v) mesh.vertices.push_back(mapping.to_real(diagram.vertices[v]));
+  for (std::size_t v = mesh.vertices.size(); v < diagram.vertices.size(); ++v)
+    mesh.vertices.push_back(mapping.to_real(diagram.vertices[v]));
   for (const Site& s : sites.inner) mesh.centers.push_back(mapping.to_real(s.center));
 }
 
@@ -73,24 +77,35 @@ void count(const PowerDiagram& diagram, TransitionMesh& mesh) {
   mesh.summary.transition_cells = static_cast<std::int64_t>(mesh.centers.size());
 }
 
-std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const std::vector<Tube>& tubes, MappingMethod method, int dilation) {
+std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const std::vector<Tube>& tubes,
+                                                MappingMethod method, int dilation) {
   CavityOptions options;
   options.dilation = dilation;
   auto cavity = build_cavity(frame, tubes, options);
   if (auto* none = std::get_if<NoCavity>(&cavity)) return std::move(*none);
   TransitionMesh mesh;
   mesh.cavity = std::move(std::get<Cavity>(cavity));
-  const Sites sites = place_sites(mesh.cavity);
-  if (sites.not_centred > 0) return failed(mesh.cavity, fmt::format("{} sites do not lie in their own cells", sites.not_centred));
-  PowerDiagram diagram = build_power_diagram(mesh.cavity, sites);
+  DiagramTrial trial = try_diagram(mesh.cavity, {});
+  if (trial.is_sound(mesh.cavity)) {
+    AdjustmentReport adjustment;
+    trial = expand_short_edges(mesh.cavity, std::move(trial), adjustment);
+    mesh.summary.short_edges = adjustment.short_after;
+    mesh.summary.short_edges_expanded = adjustment.short_before - adjustment.short_after;
+  }
+  const Sites& sites = trial.sites;
+  PowerDiagram& diagram = trial.diagram;
+  BoundaryMatch& match = trial.match;
+  if (sites.not_centred > 0)
+    return failed(mesh.cavity, fmt::format("{} sites do not lie in their own cells", sites.not_centred));
   if (!diagram.failure.empty()) return failed(mesh.cavity, "the power diagram is not sound: " + diagram.failure);
-  BoundaryMatch match = match_boundary(mesh.cavity, sites, diagram);
   mesh.summary.boundary_faces = static_cast<std::int64_t>(mesh.cavity.faces.size());
   mesh.summary.boundary_faces_found = match.found;
-  // Asserted in every run: each boundary face is found as the very same vertex set and nothing else touches the boundary.
+  // Asserted in every run: each boundary face is found as the very same vertex set and nothing else touches the
+  // boundary.
   if (match.found != mesh.summary.boundary_faces || match.foreign != 0 || match.volume_error > 1e-8)
-    return failed(mesh.cavity, fmt::format("the power diagram gives back {} of {} boundary faces ({} foreign, volume error {:.1e})", match.found,
-                                           mesh.summary.boundary_faces, match.foreign, match.volume_error));
+    return failed(mesh.cavity,
+                  fmt::format("the power diagram gives back {} of {} boundary faces ({} foreign, volume error {:.1e})",
+                              match.found, mesh.summary.boundary_faces, match.foreign, match.volume_error));
   const CavityMapping mapping(mesh.cavity, method);
   const MappingReport& report = mapping.report();
   mesh.summary.inverted_tetrahedra = report.inverted_first;
@@ -98,7 +113,8 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
   mesh.summary.points_inserted = report.points_inserted;
   mesh.summary.outer_nodes_left_out = report.plane_nodes_left_out;
   if (!report.failure.empty()) {
-    NoCavity none = failed(mesh.cavity, report.failure + ": the grid is deformed too much around the tube; choose a smaller radius");
+    NoCavity none = failed(mesh.cavity,
+                           report.failure + ": the grid is deformed too much around the tube; choose a smaller radius");
     if (!report.tubes_at_fault.empty()) {
       none.wells.clear();
       for (const std::size_t t : report.tubes_at_fault) none.wells.push_back(mesh.cavity.tubes[t].well);
@@ -117,7 +133,8 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
 
 }  // namespace
 
-std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes, MappingMethod method) {
+std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes,
+                                                             MappingMethod method) {
   auto result = try_once(frame, tubes, method, 0);
   for (int dilation = 1; dilation <= most_dilations && std::holds_alternative<NoCavity>(result); ++dilation) {
     auto next = try_once(frame, tubes, method, dilation);

@@ -17,14 +17,16 @@ namespace wellknit {
 
 struct TransitionMesh {
   Cavity cavity;
-  std::vector<Vec3> vertices;              ///< real; the cavity's vertices first, in their order
-  std::vector<Vec3> centers;               ///< per cell: the points that carry the pressure
-  std::vector<DiagramFace> faces;          ///< as in the diagram: right-hand normal away from `cell`
-  std::vector<std::int32_t> boundary_face; ///< per face: the boundary face of the cavity that it is, or -1
+  std::vector<Vec3> vertices;               ///< real; the cavity's vertices first, in their order
+  std::vector<Vec3> centers;                ///< per cell: the points that carry the pressure
+  std::vector<DiagramFace> faces;           ///< as in the diagram: right-hand normal away from `cell`
+  std::vector<std::int32_t> boundary_face;  ///< per face: the boundary face of the cavity that it is, or -1
   CavitySummary summary;
 };
 
-/// Runs the steps for wells that share a cavity. Where a step fails, the cavity is enlarged and all is tried again, twice.
-std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes, MappingMethod method);
+/// Runs the steps for wells that share a cavity. Where a step fails, the cavity is enlarged and all is tried again,
+/// twice.
+std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes,
+                                                             MappingMethod method);
 
 }  // namespace wellknit

@@ -27,12 +27,13 @@ Vec3 minimise_shortfall(const VertexBall& ball, double beta, const Vec3& start);
 /// True when all values reach beta at p (to 1e-12 of `scale`).
 bool reaches(const VertexBall& ball, double beta, const Vec3& p, double scale);
 
-/// The position with the largest smallest value, found by bisection over beta up to `most`; where none makes all values positive, the
-/// minimiser of the shortfall from a twentieth of `most`.
+/// The position with the largest smallest value, found by bisection over beta up to `most`; where none makes all values
+/// positive, the minimiser of the shortfall from a twentieth of `most`.
 Vec3 largest_smallest_value(const VertexBall& ball, double most, const Vec3& start);
 
-/// The paper's two steps: beta = 0, then beta from the smallest non-null value over the number of null ones plus one, halved while it
-/// cannot be reached. The start where beta = 0 cannot be reached: the paper leaves such a vertex where it is.
+/// The paper's two steps: beta = 0, then beta from the smallest non-null value over the number of null ones plus one,
+/// halved while it cannot be reached. The start where beta = 0 cannot be reached: the paper leaves such a vertex where
+/// it is.
 Vec3 paper_position(const VertexBall& ball, const Vec3& start);
 
 }  // namespace wellknit

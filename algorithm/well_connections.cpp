@@ -29,8 +29,8 @@ struct MadePart {
   MeasuredDepthRange measured_depth;
 };
 
-/// Index of a bore through a polyhedral cell, as Peaceman's in a cube of its volume: an equivalent radius of 0.2 of its edge and the
-/// permeability across the path. An estimate: the cell is no cube and the bore not in its middle.
+/// Index of a bore through a polyhedral cell, as Peaceman's in a cube of its volume: an equivalent radius of 0.2 of its
+/// edge and the permeability across the path. An estimate: the cell is no cube and the bore not in its middle.
 double made_cell_index(const Cells& cells, CellId cell, const MadePart& part, double bore_radius, double skin) {
   const Vec3& k = cells.permeability[cell];
   const double ntg = cells.net_to_gross[cell];
@@ -69,7 +69,8 @@ class WellConnector::MadeCells {
  public:
   explicit MadeCells(const Mesh& mesh) : mesh_(mesh) {}
 
-  /// The made cell that holds a point of a removed source cell: of those with a share of it the one that the point is deepest in.
+  /// The made cell that holds a point of a removed source cell: of those with a share of it the one that the point is
+  /// deepest in.
   std::optional<CellId> at(HostCellId source, const Vec3& point) {
     std::optional<CellId> best;
     double deepest = -std::numeric_limits<double>::infinity();
@@ -84,7 +85,8 @@ class WellConnector::MadeCells {
   }
 
   /// Parts of the path in removed source cells, by made cell, in steps of a hundredth of each part.
-  std::map<CellId, MadePart> parts_of(const Assembly& assembly, const std::vector<CellPart>& parts, const std::vector<MeasuredDepthRange>& open) {
+  std::map<CellId, MadePart> parts_of(const Assembly& assembly, const std::vector<CellPart>& parts,
+                                      const std::vector<MeasuredDepthRange>& open) {
     std::map<CellId, MadePart> out;
     for (const CellPart& part : parts) {
       if (assembly.cell_of[part.cell].is_valid()) continue;
@@ -92,7 +94,9 @@ class WellConnector::MadeCells {
       const double step = (part.measured_depth.to - part.measured_depth.from) / steps;
       for (int s = 0; s < steps; ++s) {
         const double md = part.measured_depth.from + (s + 0.5) * step;
-        if (std::none_of(open.begin(), open.end(), [&](const MeasuredDepthRange& o) { return o.from <= md && md <= o.to; })) continue;
+        if (std::none_of(open.begin(), open.end(),
+                         [&](const MeasuredDepthRange& o) { return o.from <= md && md <= o.to; }))
+          continue;
         const auto cell = at(part.cell, part.entry + (s + 0.5) / steps * (part.exit - part.entry));
         if (!cell) continue;
         auto [entry, is_new] = out.emplace(*cell, MadePart{});
@@ -127,8 +131,13 @@ class WellConnector::MadeCells {
   std::unordered_map<std::int64_t, std::vector<OutwardFace>> faces_;
 };
 
-WellConnector::WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly)
-    : grid_(grid), host_(host), locator_(locator), assembly_(assembly), made_cells_(std::make_unique<MadeCells>(assembly.mesh)) {}
+WellConnector::WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
+                             const Assembly& assembly)
+    : grid_(grid),
+      host_(host),
+      locator_(locator),
+      assembly_(assembly),
+      made_cells_(std::make_unique<MadeCells>(assembly.mesh)) {}
 WellConnector::~WellConnector() = default;
 
 WellConnections WellConnector::connect(std::size_t well_index, const Well& well) {
@@ -143,9 +152,11 @@ WellConnections WellConnector::connect(std::size_t well_index, const Well& well)
   if (rest.open.empty()) return out;
   const auto parts = cells_along(grid_, locator_, well.trajectory);
   const bool is_from_deck = tube == nullptr && !well.completions.empty();
-  const auto kept = is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, parts);
+  const auto kept =
+      is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, parts);
   for (const HostWellConnection& c : kept)
-    if (const CellId cell = assembly_.cell_of[c.cell]; cell.is_valid()) out.all.push_back({cell, c.well_index, c.measured_depth});
+    if (const CellId cell = assembly_.cell_of[c.cell]; cell.is_valid())
+      out.all.push_back({cell, c.well_index, c.measured_depth});
   for (const auto& [cell, part] : made_cells_->parts_of(assembly_, parts, rest.open)) {
     const double index = made_cell_index(assembly_.mesh.cells, cell, part, well.radial.bore_radius, well.skin);
     // The well's own radial cells belong to its tube's open part.

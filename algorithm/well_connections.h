@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// The cells of the finished mesh that a well is open to: radial cells along its tube, host cells by Peaceman's index, transition cells
-/// where the well runs through the cavity beyond its tube's ends.
+/// The cells of the finished mesh that a well is open to: radial cells along its tube, host cells by Peaceman's index,
+/// transition cells where the well runs through the cavity beyond its tube's ends.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,15 @@
 namespace wellknit {
 
 struct WellConnections {
-  std::vector<WellConnection> all;   ///< each cell once, in the order of measured depth within each kind
-  std::int64_t by_index = 0;         ///< of these, host and transition cells
+  std::vector<WellConnection> all;  ///< each cell once, in the order of measured depth within each kind
+  std::int64_t by_index = 0;        ///< of these, host and transition cells
 };
 
 /// Connects one well after the other. Needs the mesh's permeabilities and transfer map; all references must outlive it.
 class WellConnector {
  public:
-  WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly);
+  WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
+                const Assembly& assembly);
   ~WellConnector();
   WellConnector(const WellConnector&) = delete;
   WellConnector& operator=(const WellConnector&) = delete;

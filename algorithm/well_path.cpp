@@ -16,7 +16,8 @@ WellPath::WellPath(const Trajectory& trajectory) : depth_(trajectory.measured_de
   if (n < 2 || depth_.size() != n) throw InvalidInput("a trajectory needs two or more stations");
   for (std::size_t i = 1; i < n; ++i)
     if (!(depth_[i] > depth_[i - 1]))
-      throw InvalidInput(fmt::format("measured depth does not rise at station {}: {} after {}", i + 1, depth_[i], depth_[i - 1]));
+      throw InvalidInput(
+          fmt::format("measured depth does not rise at station {}: {} after {}", i + 1, depth_[i], depth_[i - 1]));
   slopes_.resize(n);
   const auto chord = [&](std::size_t i) { return Vec3((points_[i + 1] - points_[i]) / (depth_[i + 1] - depth_[i])); };
   for (std::size_t i = 1; i + 1 < n; ++i) {

@@ -23,13 +23,16 @@ constexpr double mode_angle = 30.0 * std::numbers::pi / 180.0;
 /// Rings that lean more than this from their path's normal are first smoothed; about the angle that a segment of a
 /// well at the limit of curvature turns by.
 constexpr double tilt_limit = 6.0 * std::numbers::pi / 180.0;
-constexpr double outside_gap = 0.5;          ///< of the drainage radius: least distance of a swept tube to the grid's outside
-constexpr double least_lateral_ratio = 0.5;  ///< method.md §3: the drainage radius is at most half the radius of curvature
+constexpr double outside_gap = 0.5;  ///< of the drainage radius: least distance of a swept tube to the grid's outside
+constexpr double least_lateral_ratio =
+    0.5;  ///< method.md §3: the drainage radius is at most half the radius of curvature
 constexpr double least_reference_ratio = 0.2;
-constexpr int most_natural_segments = 500;  ///< of a swept tube when the user does not say: a longer one gets longer cells
+constexpr int most_natural_segments =
+    500;  ///< of a swept tube when the user does not say: a longer one gets longer cells
 constexpr double least_layer_thickness = 1e-3;  ///< m, at the well; thinner ones count as pinched out
 
-// ---- layered ----------------------------------------------------------------------------------------------------------
+// ---- layered
+// ----------------------------------------------------------------------------------------------------------
 
 /// Where the path crosses a horizon: lateral place in E_ref and measured depth.
 struct Crossing {
@@ -39,8 +42,8 @@ struct Crossing {
   bool is_found = false;
 };
 
-/// Bisection between two samples on either side of the plane; they see different layers, and a kink of phi_0 between them is
-/// what makes a straight interpolation wrong.
+/// Bisection between two samples on either side of the plane; they see different layers, and a kink of phi_0 between
+/// them is what makes a straight interpolation wrong.
 Crossing refine_crossing(const HostFrame& frame, const WellPath& path, PathSample a, PathSample b, double plane) {
   const bool rises = b.reference.z() > a.reference.z();
   for (int step = 0; step < 50; ++step) {
@@ -79,8 +82,8 @@ std::vector<Crossing> horizon_crossings(const HostFrame& frame, const Well& well
   return crossings;
 }
 
-/// Horizons that the path does not reach take the place of the nearest one that it does (or of the path's end), and go on in
-/// measured depth by the distance in E_ref.
+/// Horizons that the path does not reach take the place of the nearest one that it does (or of the path's end), and go
+/// on in measured depth by the distance in E_ref.
 void extend_crossings(const HostFrame& frame, const std::vector<PathSample>& path, std::vector<Crossing>& crossings) {
   const PathSample& high = path.front().reference.z() < path.back().reference.z() ? path.front() : path.back();
   const PathSample& low = path.front().reference.z() < path.back().reference.z() ? path.back() : path.front();
@@ -89,13 +92,15 @@ void extend_crossings(const HostFrame& frame, const std::vector<PathSample>& pat
     if (crossings[level].is_found) continue;
     const double plane = frame.space.plane(2, static_cast<std::int64_t>(level));
     const PathSample& from = plane <= high.reference.z() ? high : low;
-    crossings[level] = {from.reference.x(), from.reference.y(), from.measured_depth + direction * (plane - from.reference.z()), false};
+    crossings[level] = {from.reference.x(), from.reference.y(),
+                        from.measured_depth + direction * (plane - from.reference.z()), false};
   }
 }
 
 /// The points of all circles on one horizon; false where a point has none.
-bool add_horizon_rings(const HostFrame& frame, std::int64_t level, const Crossing& crossing, const std::vector<double>& radii, int sectors,
-                       RadialMesh& mesh, std::vector<Vec3>& outer_reference) {
+bool add_horizon_rings(const HostFrame& frame, std::int64_t level, const Crossing& crossing,
+                       const std::vector<double>& radii, int sectors, RadialMesh& mesh,
+                       std::vector<Vec3>& outer_reference) {
   const auto [i, u] = frame.space.place(0, crossing.x);
   const auto [j, v] = frame.space.place(1, crossing.y);
   const Horizon horizon(frame.grid, level);
@@ -114,7 +119,8 @@ bool add_horizon_rings(const HostFrame& frame, std::int64_t level, const Crossin
       if (r == radii.back())
         outer_reference.push_back(frame.space.node(column[0], column[1], level) +
                                   Vec3(at->u * (frame.space.plane(0, column[0] + 1) - frame.space.plane(0, column[0])),
-                                       at->v * (frame.space.plane(1, column[1] + 1) - frame.space.plane(1, column[1])), 0.0));
+                                       at->v * (frame.space.plane(1, column[1] + 1) - frame.space.plane(1, column[1])),
+                                       0.0));
     }
   return true;
 }
@@ -142,7 +148,8 @@ PlanCircle fit_plan_circle(const std::vector<Vec3>& points, int sectors) {
   // The radius about each horizon's own centre: drift must not widen the prism.
   for (std::size_t ring = 0; ring < points.size(); ring += static_cast<std::size_t>(sectors)) {
     Vec3 center = Vec3::Zero();
-    for (int s = 0; s < sectors; ++s) center += points[ring + static_cast<std::size_t>(s)] / static_cast<double>(sectors);
+    for (int s = 0; s < sectors; ++s)
+      center += points[ring + static_cast<std::size_t>(s)] / static_cast<double>(sectors);
     for (int s = 0; s < sectors; ++s) {
       const Vec3 d = points[ring + static_cast<std::size_t>(s)] - center;
       circle.radius += std::hypot(d.x(), d.y()) / static_cast<double>(points.size());
@@ -153,7 +160,8 @@ PlanCircle fit_plan_circle(const std::vector<Vec3>& points, int sectors) {
   return circle;
 }
 
-RadialMesh reference_prism(const HostFrame& frame, const PlanCircle& circle, const RadialMesh& real, const std::vector<double>& radii) {
+RadialMesh reference_prism(const HostFrame& frame, const PlanCircle& circle, const RadialMesh& real,
+                           const std::vector<double>& radii) {
   std::vector<RingFrame> frames;
   for (int k = 0; k < real.stations(); ++k) {
     const Vec3 center(circle.center.x(), circle.center.y(), frame.space.plane(2, k));
@@ -164,7 +172,8 @@ RadialMesh reference_prism(const HostFrame& frame, const PlanCircle& circle, con
   return sweep_rings(frames, scaled, real.sectors, circle.start_angle);
 }
 
-// ---- swept ------------------------------------------------------------------------------------------------------------
+// ---- swept
+// ------------------------------------------------------------------------------------------------------------
 
 /// A stretch of the path, by sample.
 struct Stretch {
@@ -201,7 +210,8 @@ MeasuredDepthRange wanted_range(const Well& well, const std::vector<PathSample>&
   return {std::max(range.from, from - margin), std::min(range.to, to + margin)};
 }
 
-std::optional<Stretch> longest_clear_stretch(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path) {
+std::optional<Stretch> longest_clear_stretch(const HostFrame& frame, const Well& well,
+                                             const std::vector<PathSample>& path) {
   const MeasuredDepthRange wanted = wanted_range(well, path);
   std::optional<Stretch> best;
   double best_length = 0.0;
@@ -218,7 +228,8 @@ std::optional<Stretch> longest_clear_stretch(const HostFrame& frame, const Well&
     }
     std::size_t e = s;
     // A jump in measured depth is a part of the path outside of the grid.
-    while (e + 1 < path.size() && is_good(e + 1) && path[e + 1].measured_depth - path[e].measured_depth < 1.5 * step) ++e;
+    while (e + 1 < path.size() && is_good(e + 1) && path[e + 1].measured_depth - path[e].measured_depth < 1.5 * step)
+      ++e;
     const double length = path[e].measured_depth - path[s].measured_depth;
     if (length > best_length) {
       best_length = length;
@@ -289,7 +300,8 @@ std::pair<double, double> fit_rings(const std::vector<RingFrame>& frames, const 
     for (int s = 0; s < sectors; ++s) {
       const Vec3& p = mapped.outer[k * static_cast<std::size_t>(sectors) + static_cast<std::size_t>(s)];
       const Vec3 d = p - frames[k].center;
-      turn += std::complex<double>(d.dot(frames[k].e1), d.dot(frames[k].e2)) * std::polar(1.0, -2.0 * std::numbers::pi * s / sectors);
+      turn += std::complex<double>(d.dot(frames[k].e1), d.dot(frames[k].e2)) *
+              std::polar(1.0, -2.0 * std::numbers::pi * s / sectors);
       radius += (p - mapped.stations[k]).norm();
     }
   return {std::arg(turn), radius / static_cast<double>(mapped.outer.size())};
@@ -302,7 +314,8 @@ std::vector<Vec3> even_stations(const Well& well, double from, double to, int se
   return stations;
 }
 
-/// Most rings whose trapezoids have their circumcentres inside: the ratio of radii must be above 1 / cos(2 pi / N) (method.md §3). 0: none.
+/// Most rings whose trapezoids have their circumcentres inside: the ratio of radii must be above 1 / cos(2 pi / N)
+/// (method.md §3). 0: none.
 int most_rings(const RadialOptions& options) {
   const double cosine = std::cos(2.0 * std::numbers::pi / options.sectors);
   if (cosine < 0.4) return 0;
@@ -342,7 +355,8 @@ MeshMode choose_mode(const std::vector<PathSample>& path, double drainage_radius
   Vec3 mean = Vec3::Zero();
   for (const auto& s : path) mean += s.reference / static_cast<double>(path.size());
   double drift = 0.0;
-  for (const auto& s : path) drift = std::max(drift, std::hypot(s.reference.x() - mean.x(), s.reference.y() - mean.y()));
+  for (const auto& s : path)
+    drift = std::max(drift, std::hypot(s.reference.x() - mean.x(), s.reference.y() - mean.y()));
   return drift < drainage_radius ? MeshMode::layered : MeshMode::swept;
 }
 
@@ -357,12 +371,16 @@ TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const 
   tube.real.rings = well.radial.rings;
   std::vector<Vec3> outer;
   for (std::size_t level = 0; level < crossings.size(); ++level)
-    if (!add_horizon_rings(frame, static_cast<std::int64_t>(level), crossings[level], radii, well.radial.sectors, tube.real, outer))
-      return NoTube{fmt::format("the tube of radius {:g} m leaves the grid, or meets a fault, at the top of layer {}: choose a smaller radius",
-                                radii.back(), level + 1)};
+    if (!add_horizon_rings(frame, static_cast<std::int64_t>(level), crossings[level], radii, well.radial.sectors,
+                           tube.real, outer))
+      return NoTube{
+          fmt::format("the tube of radius {:g} m leaves the grid, or meets a fault, at the top of layer {}: choose a "
+                      "smaller radius",
+                      radii.back(), level + 1)};
   if (const auto layer = layer_without_thickness(tube.real))
-    return NoTube{fmt::format("layer {} pinches out within {:g} m of the well; pinch-outs inside a tube are not handled yet", *layer + 1,
-                              radii.back())};
+    return NoTube{
+        fmt::format("layer {} pinches out within {:g} m of the well; pinch-outs inside a tube are not handled yet",
+                    *layer + 1, radii.back())};
   const PlanCircle circle = fit_plan_circle(outer, tube.real.sectors);
   tube.reference_radius = circle.radius;
   tube.reference = reference_prism(frame, circle, tube.real, radii);
@@ -375,12 +393,15 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const st
   const auto stretch = longest_clear_stretch(frame, well, path);
   const double length = stretch ? path[stretch->last].measured_depth - path[stretch->first].measured_depth : 0.0;
   if (length < outer)
-    return NoTube{fmt::format("no stretch of one drainage radius ({:g} m) keeps {:g} m from the top, base and sides of the grid: choose a "
-                              "smaller radius",
-                              outer, (1.0 + outside_gap) * outer)};
+    return NoTube{fmt::format(
+        "no stretch of one drainage radius ({:g} m) keeps {:g} m from the top, base and sides of the grid: choose a "
+        "smaller radius",
+        outer, (1.0 + outside_gap) * outer)};
   if (const int most = most_rings(well.radial); well.radial.rings > most)
-    return NoTube{most > 0 ? fmt::format("{} rings in {} sectors are too thin for the cells at the tube's ends to hold their centres: choose at most {} "
-                                         "rings, or more sectors", well.radial.rings, well.radial.sectors, most)
+    return NoTube{most > 0 ? fmt::format("{} rings in {} sectors are too thin for the cells at the tube's ends to hold "
+                                         "their centres: choose at most {} "
+                                         "rings, or more sectors",
+                                         well.radial.rings, well.radial.sectors, most)
                            : fmt::format("a swept tube needs 6 or more sectors, not {}", well.radial.sectors)};
   const int natural_segments = std::clamp(static_cast<int>(std::lround(length / outer)), 2, most_natural_segments);
   const int segments = well.radial.segments.value_or(natural_segments);
@@ -392,10 +413,13 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const st
   for (int k = 0; k <= segments; ++k) tube.real.measured_depth.push_back(from + (to - from) * k / segments);
   int tight = 0;
   if (sweep.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.real, &tight) < least_lateral_ratio)
-    return NoTube{fmt::format("the well bends too sharply for a drainage radius of {:g} m at measured depth {:.1f} m: choose a smaller radius",
-                              outer, tube.real.measured_depth[static_cast<std::size_t>(tight)])};
+    return NoTube{
+        fmt::format("the well bends too sharply for a drainage radius of {:g} m at measured depth {:.1f} m: choose a "
+                    "smaller radius",
+                    outer, tube.real.measured_depth[static_cast<std::size_t>(tight)])};
   if (sweep.largest_move > 1e-3 * outer)
-    tube.notes.push_back(fmt::format("the path was smoothed by up to {:.2g} m for the rings to stand normal to it", sweep.largest_move));
+    tube.notes.push_back(
+        fmt::format("the path was smoothed by up to {:.2g} m for the rings to stand normal to it", sweep.largest_move));
   const auto mapped = map_rings(frame, tube.real);
   if (!mapped) return NoTube{fmt::format("the tube of radius {:g} m leaves the grid: choose a smaller radius", outer)};
   const Sweep ideal = smooth_sweep(mapped->stations);
@@ -405,9 +429,10 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const st
   tube.reference_radius = radius;
   tube.reference = sweep_rings(ideal.frames, scaled, tube.real.sectors, angle);
   if (ideal.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.reference, &tight) < least_reference_ratio)
-    return NoTube{fmt::format("the grid bends too sharply around the well at measured depth {:.1f} m for a drainage radius of {:g} m: choose "
-                              "a smaller radius",
-                              tube.real.measured_depth[static_cast<std::size_t>(tight)], outer)};
+    return NoTube{fmt::format(
+        "the grid bends too sharply around the well at measured depth {:.1f} m for a drainage radius of {:g} m: choose "
+        "a smaller radius",
+        tube.real.measured_depth[static_cast<std::size_t>(tight)], outer)};
   return tube;
 }
 

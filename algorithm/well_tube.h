@@ -53,8 +53,8 @@ struct PathSample {
 /// The path in E_ref: samples inside the grid in order of measured depth; empty when the well misses the grid.
 std::vector<PathSample> path_in_reference(const HostFrame& frame, const Well& well);
 
-/// The mode that fits: layered where the path runs within 30 degrees of the layers' normal and drifts, over its length in
-/// the grid, by less than the drainage radius (method.md §3).
+/// The mode that fits: layered where the path runs within 30 degrees of the layers' normal and drifts, over its length
+/// in the grid, by less than the drainage radius (method.md §3).
 MeshMode choose_mode(const std::vector<PathSample>& path, double drainage_radius);
 
 /// Rings on the host's horizons from top to base.

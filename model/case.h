@@ -20,9 +20,10 @@ struct SourceFile {
 
 struct Case {
   CornerPointGrid grid;
-  std::vector<Well> deck_wells;      ///< WELSPECS and COMPDAT, in the deck's order
-  std::vector<SourceFile> sources;   ///< in the order of reading, each once
-  std::vector<std::string> notes;    ///< one sentence each: what was mended, ignored or not understood, with file and line
+  std::vector<Well> deck_wells;     ///< WELSPECS and COMPDAT, in the deck's order
+  std::vector<SourceFile> sources;  ///< in the order of reading, each once
+  std::vector<std::string>
+      notes;  ///< one sentence each: what was mended, ignored or not understood, with file and line
 };
 
 }  // namespace wellknit

@@ -69,8 +69,10 @@ void validate(const CornerPointGrid& grid) {
   for (const auto& [name, values] : grid.properties)
     std::visit([&, &key = name](const auto& v) { expect(key, v.size(), n); }, values);
   const auto finite = [](double v) { return std::isfinite(v); };
-  if (!std::all_of(grid.coord.begin(), grid.coord.end(), finite)) throw InvalidInput("COORD holds a value that is not finite");
-  if (!std::all_of(grid.zcorn.begin(), grid.zcorn.end(), finite)) throw InvalidInput("ZCORN holds a value that is not finite");
+  if (!std::all_of(grid.coord.begin(), grid.coord.end(), finite))
+    throw InvalidInput("COORD holds a value that is not finite");
+  if (!std::all_of(grid.zcorn.begin(), grid.zcorn.end(), finite))
+    throw InvalidInput("ZCORN holds a value that is not finite");
 }
 
 }  // namespace wellknit

@@ -51,7 +51,8 @@ struct CornerPointGrid {
   /// Place in zcorn of corner (di, dj, dk), each 0 or 1, of cell (i, j, k).
   [[nodiscard]] std::size_t zcorn_index(std::array<std::int64_t, 3> cell, int di, int dj, int dk) const {
     const auto [i, j, k] = cell;
-    return static_cast<std::size_t>((2 * i + di) + 2 * dimensions[0] * ((2 * j + dj) + 2 * dimensions[1] * (2 * k + dk)));
+    return static_cast<std::size_t>((2 * i + di) +
+                                    2 * dimensions[0] * ((2 * j + dj) + 2 * dimensions[1] * (2 * k + dk)));
   }
   /// The point at this depth on pillar (i, j), 0 <= i <= nx, 0 <= j <= ny.
   [[nodiscard]] Vec3 pillar_point(std::int64_t i, std::int64_t j, double depth) const;

@@ -32,8 +32,8 @@ class Id {
 
 using VertexId = Id<struct VertexTag>;
 using FaceId = Id<struct FaceTag>;
-using CellId = Id<struct CellTag>;              ///< cell of the mesh
-using HostCellId = Id<struct HostCellTag>;      ///< corner-point cell i + nx (j + ny k)
+using CellId = Id<struct CellTag>;          ///< cell of the mesh
+using HostCellId = Id<struct HostCellTag>;  ///< corner-point cell i + nx (j + ny k)
 using ConnectionId = Id<struct ConnectionTag>;
 using WellId = Id<struct WellTag>;
 

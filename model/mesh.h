@@ -38,9 +38,9 @@ struct RadialIndex {
 
 /// Vertices and faces. A face's right-hand normal points from its first cell to its second.
 struct Faces {
-  std::vector<std::int64_t> vertex_start{0};         ///< size()+1 offsets into vertices
-  std::vector<VertexId> vertices;                    ///< 3 or more distinct a face, in order around it
-  IdVector<FaceId, std::array<CellId, 2>> cells;     ///< the second is no_cell on the outer boundary, the first never is
+  std::vector<std::int64_t> vertex_start{0};      ///< size()+1 offsets into vertices
+  std::vector<VertexId> vertices;                 ///< 3 or more distinct a face, in order around it
+  IdVector<FaceId, std::array<CellId, 2>> cells;  ///< the second is no_cell on the outer boundary, the first never is
 
   [[nodiscard]] std::size_t size() const { return cells.size(); }
   [[nodiscard]] std::span<const VertexId> loop(FaceId face) const {
@@ -57,34 +57,34 @@ struct Faces {
 /// One entry per active cell in every array.
 struct Cells {
   IdVector<CellId, CellKind> kind;
-  IdVector<CellId, Vec3> center;             ///< the point that carries the cell's pressure
+  IdVector<CellId, Vec3> center;  ///< the point that carries the cell's pressure
   IdVector<CellId, Vec3> centroid;
   IdVector<CellId, double> volume;           ///< m3, bulk
   IdVector<CellId, double> depth;            ///< m, of the cell's pressure
   IdVector<CellId, HostCellId> source_cell;  ///< kinds host and refined; invalid for the others
   IdVector<CellId, WellId> well;             ///< kind radial; invalid for the others
   IdVector<CellId, RadialIndex> radial_index;
-  IdVector<CellId, double> pore_volume;      ///< m3
+  IdVector<CellId, double> pore_volume;  ///< m3
   IdVector<CellId, double> porosity;
   IdVector<CellId, double> net_to_gross;
-  IdVector<CellId, Vec3> permeability;       ///< m2, diagonal along x, y, depth
+  IdVector<CellId, Vec3> permeability;             ///< m2, diagonal along x, y, depth
   std::map<std::string, CellProperty> properties;  ///< carried over, in the units of the source; one value a cell
 
   [[nodiscard]] std::size_t size() const { return kind.size(); }
 };
 
 struct Connections {
-  IdVector<ConnectionId, std::array<CellId, 2>> cells;  ///< the smaller id first, each pair once
-  IdVector<ConnectionId, FaceId> face;                  ///< invalid for a connection without one
-  IdVector<ConnectionId, double> transmissibility;      ///< m3: permeability * area / length
-  IdVector<ConnectionId, double> area;                  ///< m2
-  IdVector<ConnectionId, Vec3> normal;                  ///< unit, from the first cell to the second
+  IdVector<ConnectionId, std::array<CellId, 2>> cells;          ///< the smaller id first, each pair once
+  IdVector<ConnectionId, FaceId> face;                          ///< invalid for a connection without one
+  IdVector<ConnectionId, double> transmissibility;              ///< m3: permeability * area / length
+  IdVector<ConnectionId, double> area;                          ///< m2
+  IdVector<ConnectionId, Vec3> normal;                          ///< unit, from the first cell to the second
   IdVector<ConnectionId, std::array<double, 2>> half_distance;  ///< m, from each centre to the face's centroid
-  IdVector<ConnectionId, double> non_orthogonality;     ///< degrees, face normal to line of centres
-  IdVector<ConnectionId, double> k_non_orthogonality;   ///< degrees, the worse of the two sides
+  IdVector<ConnectionId, double> non_orthogonality;             ///< degrees, face normal to line of centres
+  IdVector<ConnectionId, double> k_non_orthogonality;           ///< degrees, the worse of the two sides
   IdVector<ConnectionId, double> planarity;
   IdVector<ConnectionId, ConnectionKind> kind;
-  IdVector<ConnectionId, double> multiplier;            ///< already inside the transmissibility
+  IdVector<ConnectionId, double> multiplier;  ///< already inside the transmissibility
 
   [[nodiscard]] std::size_t size() const { return cells.size(); }
 };
@@ -92,8 +92,8 @@ struct Connections {
 /// A cell open to the bore.
 struct WellConnection {
   CellId cell;
-  double well_index = 0.0;             ///< m3
-  MeasuredDepthRange measured_depth;   ///< m
+  double well_index = 0.0;            ///< m3
+  MeasuredDepthRange measured_depth;  ///< m
 };
 
 struct MeshWell {
@@ -110,7 +110,7 @@ struct MeshWell {
 struct Transfer {
   std::vector<std::int64_t> start;  ///< nx ny nz + 1 offsets
   std::vector<CellId> cell;
-  std::vector<double> fraction;     ///< of the source cell's bulk volume; an active cell's add up to 1
+  std::vector<double> fraction;  ///< of the source cell's bulk volume; an active cell's add up to 1
 };
 
 struct Mesh {

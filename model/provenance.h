@@ -12,9 +12,9 @@
 namespace wellknit {
 
 struct Provenance {
-  std::string created_by;           ///< program and version
-  std::string command;              ///< the command line
-  std::string config;               ///< the whole effective configuration as text
+  std::string created_by;  ///< program and version
+  std::string command;     ///< the command line
+  std::string config;      ///< the whole effective configuration as text
   std::vector<SourceFile> sources;
 };
 

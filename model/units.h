@@ -8,14 +8,14 @@
 
 namespace wellknit {
 
-inline constexpr double metre_per_foot = 0.3048;                     ///< exact
-inline constexpr double m2_per_darcy = 9.869232667160130e-13;        ///< 1 cP cm2 / (s atm), atm = 101325 Pa
+inline constexpr double metre_per_foot = 0.3048;               ///< exact
+inline constexpr double m2_per_darcy = 9.869232667160130e-13;  ///< 1 cP cm2 / (s atm), atm = 101325 Pa
 inline constexpr double m2_per_millidarcy = m2_per_darcy * 1e-3;
-inline constexpr double pascal_per_bar = 1e5;                        ///< exact
-inline constexpr double pascal_per_psi = 6894.757293168361;          ///< 0.45359237 kg * 9.80665 m/s2 / (0.0254 m)^2
-inline constexpr double pascal_second_per_centipoise = 1e-3;         ///< exact
-inline constexpr double second_per_day = 86400.0;                    ///< exact
-inline constexpr double m3_per_barrel = 0.158987294928;              ///< 42 * 231 in3, exact
+inline constexpr double pascal_per_bar = 1e5;                 ///< exact
+inline constexpr double pascal_per_psi = 6894.757293168361;   ///< 0.45359237 kg * 9.80665 m/s2 / (0.0254 m)^2
+inline constexpr double pascal_second_per_centipoise = 1e-3;  ///< exact
+inline constexpr double second_per_day = 86400.0;             ///< exact
+inline constexpr double m3_per_barrel = 0.158987294928;       ///< 42 * 231 in3, exact
 
 /// Unit system of an Eclipse deck.
 enum class UnitSystem { metric, field, lab };

@@ -31,23 +31,23 @@ struct MeasuredDepthRange {
 struct DeckCompletion {
   HostCellId cell;
   bool open = true;
-  char direction = 'Z';                         ///< X, Y or Z
-  double diameter = 0.0;                        ///< m; 0: not given
+  char direction = 'Z';   ///< X, Y or Z
+  double diameter = 0.0;  ///< m; 0: not given
   double skin = 0.0;
-  std::optional<double> connection_factor;      ///< m3
-  std::optional<double> permeability_thickness; ///< m3 (permeability * length)
+  std::optional<double> connection_factor;       ///< m3
+  std::optional<double> permeability_thickness;  ///< m3 (permeability * length)
 };
 
 enum class MeshMode { automatic, layered, swept };
 
 /// Radial mesh of one well. Lengths in metres.
 struct RadialOptions {
-  double drainage_radius = 15.0;      ///< of the outermost ring
+  double drainage_radius = 15.0;  ///< of the outermost ring
   double bore_radius = 0.1;
-  int sectors = 10;                   ///< at least 3
-  int rings = 5;                      ///< at least 1
-  std::optional<double> growth;       ///< ratio of successive ring widths; unset: radii in geometric progression
-  std::optional<int> segments;        ///< swept: cells along the well; unset: one for about one drainage radius
+  int sectors = 10;              ///< at least 3
+  int rings = 5;                 ///< at least 1
+  std::optional<double> growth;  ///< ratio of successive ring widths; unset: radii in geometric progression
+  std::optional<int> segments;   ///< swept: cells along the well; unset: one for about one drainage radius
   MeshMode mode = MeshMode::automatic;
 };
 
@@ -56,12 +56,12 @@ enum class WellType { producer, injector };
 struct Well {
   std::string name;
   Trajectory trajectory;
-  bool approximate_path = false;              ///< a path through cell centres, made from COMPDAT
-  std::vector<MeasuredDepthRange> open;       ///< empty: open over its whole length
-  std::vector<DeckCompletion> completions;    ///< from the deck; empty for a trajectory file
+  bool approximate_path = false;            ///< a path through cell centres, made from COMPDAT
+  std::vector<MeasuredDepthRange> open;     ///< empty: open over its whole length
+  std::vector<DeckCompletion> completions;  ///< from the deck; empty for a trajectory file
   double skin = 0.0;
   WellType type = WellType::producer;
-  std::optional<double> reference_depth;      ///< m, of the bottom-hole pressure
+  std::optional<double> reference_depth;  ///< m, of the bottom-hole pressure
   RadialOptions radial;
 };
 

@@ -23,7 +23,8 @@ namespace {
 
 using near_well::Path;
 
-/// Violations beyond cells that no point sees whole: those are counted in the summary and allowed where the grid is strongly deformed.
+/// Violations beyond cells that no point sees whole: those are counted in the summary and allowed where the grid is
+/// strongly deformed.
 std::vector<Violation> violations_of(const Mesh& mesh, bool may_hide) {
   std::vector<Violation> out;
   for (const Violation& v : check_mesh(mesh))
@@ -32,7 +33,9 @@ std::vector<Violation> violations_of(const Mesh& mesh, bool may_hide) {
 }
 
 std::string first(const std::vector<Violation>& violations) {
-  return violations.empty() ? "" : fmt::format("{} violations, first: {} {} {}", violations.size(), violations[0].check, violations[0].entity, violations[0].detail);
+  return violations.empty() ? ""
+                            : fmt::format("{} violations, first: {} {} {}", violations.size(), violations[0].check,
+                                          violations[0].entity, violations[0].detail);
 }
 
 TEST(BuildMesh, IsValidForEveryDeformationAndKindOfWell) {
@@ -42,7 +45,8 @@ TEST(BuildMesh, IsValidForEveryDeformationAndKindOfWell) {
       const BuildResult result = build_mesh(source, {near_well::well(path, 12.0)}, {});
       const WellSummary& well = result.summary.wells[0];
       const std::string name = fmt::format("deformation {} path {}", deformation, static_cast<int>(path));
-      // At 1.6 the horizontal well comes too close to the folded top for its radius; it says so and keeps its host cells.
+      // At 1.6 the horizontal well comes too close to the folded top for its radius; it says so and keeps its host
+      // cells.
       if (deformation < 1.5 || path != Path::horizontal) {
         EXPECT_TRUE(well.meshed) << name << ": " << well.reason;
       }
@@ -64,7 +68,8 @@ TEST(BuildMesh, InABoxGridTransitionFacesAreOrthogonalAndPlanar) {
     for (std::size_t i = 0; i < c.size(); ++i) {
       const ConnectionId id(i);
       const auto [a, b] = c.cells[id];
-      if (mesh.cells.kind[a] != CellKind::transition || mesh.cells.kind[b] != CellKind::transition || c.area[id] < 1e-6) continue;
+      if (mesh.cells.kind[a] != CellKind::transition || mesh.cells.kind[b] != CellKind::transition || c.area[id] < 1e-6)
+        continue;
       EXPECT_LT(c.non_orthogonality[id], 1e-4);
       EXPECT_LT(c.planarity[id], 1e-9);
     }
@@ -112,7 +117,8 @@ TEST(BuildMesh, OfAMirroredGridIsValidToo) {
   for (const Path path : {Path::vertical, Path::curved, Path::horizontal}) {
     Case source = near_well::deformed(0.5);
     Well well = near_well::well(path, 12.0);
-    for (std::size_t i = 1; i < source.grid.coord.size(); i += 3) source.grid.coord[i] = -source.grid.coord[i];  // y of every pillar point
+    for (std::size_t i = 1; i < source.grid.coord.size(); i += 3)
+      source.grid.coord[i] = -source.grid.coord[i];  // y of every pillar point
     for (Vec3& p : well.trajectory.points) p.y() = -p.y();
     const BuildResult result = build_mesh(source, {well}, {});
     EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
@@ -157,7 +163,8 @@ TEST(BuildMesh, WithoutWellsIsTheHostAlone) {
 
 TEST(BuildMesh, RefusesAWellOutsideOfTheGrid) {
   const Case source = near_well::deformed(0.0);
-  EXPECT_THROW(build_mesh(source, {near_well::straight("O", {1e5, 1e5, 2000.0}, {1e5, 1e5, 2100.0})}, {}), InvalidInput);
+  EXPECT_THROW(build_mesh(source, {near_well::straight("O", {1e5, 1e5, 2000.0}, {1e5, 1e5, 2100.0})}, {}),
+               InvalidInput);
 }
 
 TEST(BuildMesh, RefusesTwoWellsOfOneName) {
@@ -172,7 +179,8 @@ TEST(BuildMesh, IsTheSameWhateverStandsInMemory) {
   const Mesh first_mesh = build_mesh(source, wells, {}).mesh;
   std::vector<std::unique_ptr<std::vector<char>>> clutter;
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 500; ++j) clutter.push_back(std::make_unique<std::vector<char>>(100 + 977 * ((i + 3 * j) % 50)));
+    for (std::size_t j = 0; j < 500; ++j)
+      clutter.push_back(std::make_unique<std::vector<char>>(100 + 977 * ((i + 3 * j) % 50)));
     for (std::size_t j = i; j < clutter.size(); j += 3) clutter[j].reset();
     const Mesh mesh = build_mesh(source, wells, {}).mesh;
     EXPECT_EQ(mesh.faces.vertices, first_mesh.faces.vertices);
@@ -188,11 +196,13 @@ TEST(BuildMesh, AStimulatedWellFlowsFromItsEffectiveRadius) {
   ASSERT_FALSE(result.mesh.wells[WellId(0)].connections.empty());
   EXPECT_DOUBLE_EQ(result.mesh.wells[WellId(0)].bore_radius, 0.1);
   ASSERT_FALSE(result.summary.wells[0].notes.empty());
-  EXPECT_NE(result.summary.wells[0].notes[0].find("0.739"), std::string::npos) << result.summary.wells[0].notes[0];  // 0.1 e^2
+  EXPECT_NE(result.summary.wells[0].notes[0].find("0.739"), std::string::npos)
+      << result.summary.wells[0].notes[0];  // 0.1 e^2
 }
 
 TEST(BuildMesh, AWellThatEndsInsideIsOpenToItsOwnLayersOnly) {
-  Well well = near_well::straight("E", {411.0, 389.0, 1990.0}, {411.0, 389.0, 2060.0});  // ends at the base of layer 4 of 12
+  Well well =
+      near_well::straight("E", {411.0, 389.0, 1990.0}, {411.0, 389.0, 2060.0});  // ends at the base of layer 4 of 12
   well.radial.drainage_radius = 12.0;
   const BuildResult result = build_mesh(near_well::deformed(0.0), {well}, {});
   EXPECT_EQ(result.mesh.wells[WellId(0)].connections.size(), 4U * 10U);

@@ -29,7 +29,8 @@ struct Setting {
     space = std::make_unique<ReferenceSpace>(source.grid, host, CellRange{{0, 0, 0}, source.grid.dimensions});
     const Well well = near_well::well(path, 12.0);
     const auto samples = path_in_reference(frame(), well);
-    auto made = path == near_well::Path::vertical ? build_layered_tube(frame(), well, samples) : build_swept_tube(frame(), well, samples);
+    auto made = path == near_well::Path::vertical ? build_layered_tube(frame(), well, samples)
+                                                  : build_swept_tube(frame(), well, samples);
     if (auto* none = std::get_if<NoTube>(&made)) throw std::runtime_error(none->reason);
     tube = std::get<Tube>(made);
   }
@@ -41,8 +42,10 @@ struct Setting {
   }
 };
 
-const std::vector<std::pair<double, near_well::Path>> settings{{0.0, near_well::Path::vertical}, {0.0, near_well::Path::curved},
-                                                               {0.6, near_well::Path::deviated}, {1.0, near_well::Path::horizontal},
+const std::vector<std::pair<double, near_well::Path>> settings{{0.0, near_well::Path::vertical},
+                                                               {0.0, near_well::Path::curved},
+                                                               {0.6, near_well::Path::deviated},
+                                                               {1.0, near_well::Path::horizontal},
                                                                {1.0, near_well::Path::curved}};
 
 TEST(Cavity, BoundaryIsAClosedManifold) {
@@ -69,7 +72,8 @@ TEST(Cavity, EveryFaceIsCocyclicAndHasAnEmptySphere) {
     const Cavity cavity = Setting(deformation, path).cavity();
     for (const BoundaryFace& f : cavity.faces) {
       for (const auto v : f.loop)
-        EXPECT_NEAR((cavity.vertices[static_cast<std::size_t>(v)].reference - f.center).norm(), f.radius, 1e-9 * f.radius);
+        EXPECT_NEAR((cavity.vertices[static_cast<std::size_t>(v)].reference - f.center).norm(), f.radius,
+                    1e-9 * f.radius);
       ASSERT_LT(f.t_low, f.t_high);
       // The bounds against a direct test of the sphere half way (or a radius within, where a bound is infinite).
       const double t = 0.5 * (std::max(f.t_low, -f.radius) + std::min(f.t_high, f.radius));

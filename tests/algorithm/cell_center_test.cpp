@@ -11,8 +11,8 @@ namespace wellknit {
 namespace {
 
 std::vector<OutwardFace> box(double x, double y, double z) {
-  return {{{0, y / 2, z / 2}, {-y * z, 0, 0}}, {{x, y / 2, z / 2}, {y * z, 0, 0}}, {{x / 2, 0, z / 2}, {0, -x * z, 0}},
-          {{x / 2, y, z / 2}, {0, x * z, 0}}, {{x / 2, y / 2, 0}, {0, 0, -x * y}}, {{x / 2, y / 2, z}, {0, 0, x * y}}};
+  return {{{0, y / 2, z / 2}, {-y * z, 0, 0}}, {{x, y / 2, z / 2}, {y * z, 0, 0}},  {{x / 2, 0, z / 2}, {0, -x * z, 0}},
+          {{x / 2, y, z / 2}, {0, x * z, 0}},  {{x / 2, y / 2, 0}, {0, 0, -x * y}}, {{x / 2, y / 2, z}, {0, 0, x * y}}};
 }
 
 TEST(CellCenter, HeightIsTheDistanceToTheNearestWall) {

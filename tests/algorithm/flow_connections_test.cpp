@@ -46,15 +46,17 @@ Case thiem_box(double permeability) {
   Case source;
   source.grid = grids::box({21, 21, 4}, {20.0, 20.0, 5.0});
   const auto n = static_cast<std::size_t>(source.grid.cell_count());
-  source.grid.permeability = {std::vector<double>(n, permeability), std::vector<double>(n, permeability), std::vector<double>(n, permeability)};
+  source.grid.permeability = {std::vector<double>(n, permeability), std::vector<double>(n, permeability),
+                              std::vector<double>(n, permeability)};
   return source;
 }
 
 /// Rate into the bore when the outermost columns hold the pressures of p = ln(r / r_w), over Thiem's 2 pi k H.
 ///
-/// p = ln(r / r_w) is harmonic and 0 at the bore, so it is the steady solution of every domain whose boundary holds its values, whatever the
-/// boundary's shape: the circular-equivalent problem of a square. Its flow through any surface around the bore is
-/// 2 pi k H (viscosity 1), which is Thiem's rate 2 pi k H (p_e - p_w) / ln(r_e / r_w) with p_e = ln(r_e / r_w), p_w = 0.
+/// p = ln(r / r_w) is harmonic and 0 at the bore, so it is the steady solution of every domain whose boundary holds its
+/// values, whatever the boundary's shape: the circular-equivalent problem of a square. Its flow through any surface
+/// around the bore is 2 pi k H (viscosity 1), which is Thiem's rate 2 pi k H (p_e - p_w) / ln(r_e / r_w) with p_e =
+/// ln(r_e / r_w), p_w = 0.
 double rate_over_thiem(const Mesh& mesh, double permeability, double height) {
   const MeshWell& well = mesh.wells[WellId(0)];
   const Vec3 axis = well.trajectory.points.front();
@@ -89,15 +91,17 @@ TEST(FlowConnections, FullyPenetratingLayeredWellFlowsAsThiemSays) {
 }
 
 TEST(FlowConnections, SkinLowersTheRateAsItsResistance) {
-  // With skin s the pressure drop for the same rate grows by s: q / q_Thiem = ln(r_e/r_w) / (ln(r_e/r_w) + s) where p_e is fixed. Here the boundary
-  // holds ln(r / r_w) on a square between r = 200 m and 200 sqrt 2 m; the spread of ln is 0.35 of about 7.7, hence 2 %.
+  // With skin s the pressure drop for the same rate grows by s: q / q_Thiem = ln(r_e/r_w) / (ln(r_e/r_w) + s) where p_e
+  // is fixed. Here the boundary holds ln(r / r_w) on a square between r = 200 m and 200 sqrt 2 m; the spread of ln is
+  // 0.35 of about 7.7, hence 2 %.
   constexpr double permeability = 1e-13;
   const Case source = thiem_box(permeability);
   Well well = near_well::straight("W", {210.0, 210.0, 990.0}, {210.0, 210.0, 1030.0});
   well.radial.drainage_radius = 12.0;
   well.skin = 5.0;
   const BuildResult result = build_mesh(source, {well}, {});
-  const double log_ratio = std::log(200.0 * 1.08 / well.radial.bore_radius);  // 1.08: mean of the square's distance over its half side
+  const double log_ratio =
+      std::log(200.0 * 1.08 / well.radial.bore_radius);  // 1.08: mean of the square's distance over its half side
   EXPECT_NEAR(rate_over_thiem(result.mesh, permeability, 20.0), log_ratio / (log_ratio + 5.0), 0.02);
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "algorithm/cavity_mapping.h"
+#include "algorithm/short_edges.h"
 #include "tests/support/near_well.h"
 
 namespace wellknit {
@@ -31,7 +32,8 @@ Diagram diagram_of(double deformation, near_well::Path path, double radius = 12.
   const HostFrame frame{source.grid, host, locator, space};
   const Well well = near_well::well(path, radius);
   const auto samples = path_in_reference(frame, well);
-  auto tube = path == near_well::Path::vertical ? build_layered_tube(frame, well, samples) : build_swept_tube(frame, well, samples);
+  auto tube = path == near_well::Path::vertical ? build_layered_tube(frame, well, samples)
+                                                : build_swept_tube(frame, well, samples);
   if (auto* none = std::get_if<NoTube>(&tube)) throw std::runtime_error(none->reason);
   auto cavity = build_cavity(frame, {std::get<Tube>(tube)}, {});
   if (auto* none = std::get_if<NoCavity>(&cavity)) throw std::runtime_error(none->reason);
@@ -41,9 +43,9 @@ Diagram diagram_of(double deformation, near_well::Path path, double radius = 12.
   return out;
 }
 
-const std::vector<std::pair<double, near_well::Path>> settings{{0.0, near_well::Path::vertical}, {0.0, near_well::Path::horizontal},
-                                                               {0.0, near_well::Path::curved},   {0.3, near_well::Path::vertical},
-                                                               {0.6, near_well::Path::deviated}, {1.0, near_well::Path::curved}};
+const std::vector<std::pair<double, near_well::Path>> settings{
+    {0.0, near_well::Path::vertical}, {0.0, near_well::Path::horizontal}, {0.0, near_well::Path::curved},
+    {0.3, near_well::Path::vertical}, {0.6, near_well::Path::deviated},   {1.0, near_well::Path::curved}};
 
 TEST(PowerDiagram, GivesBackEveryBoundaryFaceAsTheSameVertexSet) {
   for (const auto& [deformation, path] : settings) {
@@ -62,7 +64,8 @@ TEST(PowerDiagram, EverySiteHasNonNegativePowerAtEveryBoundaryVertex) {
     const Diagram d = diagram_of(deformation, path);
     for (const auto* sites : {&d.sites.inner, &d.sites.outer})
       for (const Site& s : *sites)
-        for (const CavityVertex& v : d.cavity.vertices) EXPECT_GE((v.reference - s.center).squaredNorm() - s.weight, -1e-8 * s.weight);
+        for (const CavityVertex& v : d.cavity.vertices)
+          EXPECT_GE((v.reference - s.center).squaredNorm() - s.weight, -1e-8 * s.weight);
     EXPECT_EQ(d.sites.not_centred, 0);
   }
 }
@@ -78,7 +81,8 @@ TEST(PowerDiagram, FacesArePlanarAndNormalToTheLineOfTheirSites) {
       for (const auto v : f.loop) points.push_back(d.diagram.vertices[static_cast<std::size_t>(v)]);
       const PolygonGeometry g = polygon_geometry(points);
       if (g.area < 1e-6 * scale * scale) continue;  // rounding rules the normal of a sliver
-      const Vec3 line = d.sites.inner[static_cast<std::size_t>(f.other)].center - d.sites.inner[static_cast<std::size_t>(f.cell)].center;
+      const Vec3 line = d.sites.inner[static_cast<std::size_t>(f.other)].center -
+                        d.sites.inner[static_cast<std::size_t>(f.cell)].center;
       EXPECT_LT(g.area_vector.cross(line).norm() / (g.area * line.norm()), 2e-6);  // 1e-4 degrees
       EXPECT_GT(g.area_vector.dot(line), 0.0);
       EXPECT_LT(planarity(points, g), 1e-8);
@@ -115,6 +119,25 @@ TEST(PowerDiagram, CellsAreClosedAndFollowEuler) {
       EXPECT_EQ(static_cast<int>(c.vertices.size()) - static_cast<int>(c.edges.size()) / 2 + c.faces, 2);  // V - E + F
     }
   }
+}
+
+TEST(ShortEdges, AreFewerAfterTheAdjustmentAndTheDiagramStaysSound) {
+  for (const auto& [deformation, path] : settings) {
+    const Diagram d = diagram_of(deformation, path);
+    AdjustmentReport report;
+    const DiagramTrial trial = expand_short_edges(d.cavity, try_diagram(d.cavity, {}), report);
+    EXPECT_TRUE(trial.is_sound(d.cavity));
+    EXPECT_LE(report.short_after, report.short_before);
+    EXPECT_EQ(report.short_after,
+              static_cast<std::int64_t>(
+                  short_edges(d.cavity, trial.diagram, 0.03 * d.cavity.tubes[0].reference_radius).size()));
+  }
+}
+
+TEST(ShortEdges, NoneIsReportedBelowAVanishingLimit) {
+  const Diagram d = diagram_of(0.6, near_well::Path::deviated);
+  EXPECT_TRUE(short_edges(d.cavity, d.diagram, 1e-12).empty());
+  EXPECT_FALSE(short_edges(d.cavity, d.diagram, 1.0).empty());
 }
 
 TEST(CavityMapping, OfABoxGridIsTheIdentity) {

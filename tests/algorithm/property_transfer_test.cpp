@@ -38,7 +38,8 @@ TEST(PropertyTransfer, ConservesPoreVolumeInEverySourceCell) {
     for (std::size_t c = 0; c < source.grid.porosity.size(); ++c) {
       expected += host.volume[HostCellId(c)] * source.grid.porosity[c];
       double sum = 0.0;
-      for (std::int64_t i = mesh.transfer.start[c]; i < mesh.transfer.start[c + 1]; ++i) sum += mesh.transfer.fraction[static_cast<std::size_t>(i)];
+      for (std::int64_t i = mesh.transfer.start[c]; i < mesh.transfer.start[c + 1]; ++i)
+        sum += mesh.transfer.fraction[static_cast<std::size_t>(i)];
       ASSERT_NEAR(sum, 1.0, 1e-12);
     }
     const double found = std::accumulate(mesh.cells.pore_volume.begin(), mesh.cells.pore_volume.end(), 0.0);
@@ -52,7 +53,8 @@ TEST(PropertyTransfer, FillsMadeCellsToTheirVolume) {
   std::vector<double> filled(mesh.cells.size(), 0.0);
   for (std::size_t c = 0; c + 1 < mesh.transfer.start.size(); ++c)
     for (std::int64_t i = mesh.transfer.start[c]; i < mesh.transfer.start[c + 1]; ++i)
-      filled[mesh.transfer.cell[static_cast<std::size_t>(i)].index()] += mesh.transfer.fraction[static_cast<std::size_t>(i)] * host.volume[HostCellId(c)];
+      filled[mesh.transfer.cell[static_cast<std::size_t>(i)].index()] +=
+          mesh.transfer.fraction[static_cast<std::size_t>(i)] * host.volume[HostCellId(c)];
   for (std::size_t c = 0; c < filled.size(); ++c)
     if (mesh.cells.kind[CellId(c)] >= CellKind::transition) {
       EXPECT_NEAR(filled[c] / mesh.cells.volume[CellId(c)], 1.0, 0.02);
@@ -82,7 +84,8 @@ TEST(PropertyTransfer, InactiveCellsGiveNothing) {
   const BuildResult result = build_mesh(source, {near_well::well(near_well::Path::curved, 12.0)}, {});
   EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
   double expected = 0.0;
-  for (const auto active : source.grid.active) expected += active * 40.0 * 40.0 * 15.0 * 0.2;  // cells of 40 x 40 x 15 m, porosity 0.2
+  for (const auto active : source.grid.active)
+    expected += active * 40.0 * 40.0 * 15.0 * 0.2;  // cells of 40 x 40 x 15 m, porosity 0.2
   const auto& pv = result.mesh.cells.pore_volume;
   EXPECT_NEAR(std::accumulate(pv.begin(), pv.end(), 0.0) / expected, 1.0, 1e-12);
 }

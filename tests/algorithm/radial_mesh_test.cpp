@@ -34,7 +34,8 @@ TEST(RadialMesh, RadiiAreInGeometricProgression) {
   options.drainage_radius = 12.8;
   options.rings = 7;  // 0.1 * 2^7 = 12.8
   const auto radii = circle_radii(options);
-  for (std::size_t i = 0; i < radii.size(); ++i) EXPECT_NEAR(radii[i], 0.1 * std::pow(2.0, static_cast<double>(i)), 1e-12);
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    EXPECT_NEAR(radii[i], 0.1 * std::pow(2.0, static_cast<double>(i)), 1e-12);
 }
 
 TEST(RadialMesh, WidthsGrowByTheFactorGiven) {
@@ -72,7 +73,9 @@ double circle_defect(const std::vector<Vec3>& p) {
   const Vec3 n = a.cross(b);
   const Vec3 center = p[0] + (a.squaredNorm() * b.cross(n) + b.squaredNorm() * n.cross(a)) / (2 * n.squaredNorm());
   double worst = 0.0;
-  for (const Vec3& q : p) worst = std::max({worst, std::abs(n.normalized().dot(q - p[0])), std::abs((q - center).norm() - a.norm() * b.norm() * (a - b).norm() / (2 * n.norm()))});
+  for (const Vec3& q : p)
+    worst = std::max({worst, std::abs(n.normalized().dot(q - p[0])),
+                      std::abs((q - center).norm() - a.norm() * b.norm() * (a - b).norm() / (2 * n.norm()))});
   return worst;
 }
 
@@ -82,7 +85,8 @@ TEST(RadialMesh, LateralFacesOfACurvedTubeArePlanarAndCocyclic) {
   for (int k = 0; k < m.segments; ++k)
     for (int c = 0; c <= m.rings; ++c)
       for (int s = 0; s < m.sectors; ++s)
-        worst = std::max(worst, circle_defect({m.point(k, c, s), m.point(k, c, s + 1), m.point(k + 1, c, s + 1), m.point(k + 1, c, s)}));
+        worst = std::max(worst, circle_defect({m.point(k, c, s), m.point(k, c, s + 1), m.point(k + 1, c, s + 1),
+                                               m.point(k + 1, c, s)}));
   EXPECT_LT(worst, 1e-10);  // method.md §13; the coordinates are some 200 m
 }
 

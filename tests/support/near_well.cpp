@@ -38,7 +38,8 @@ Case deformed(double deformation) {
     const double x = cell * static_cast<double>(i);
     const double y = cell * static_cast<double>(j);
     const Vec3 slant(30.0, 20.0 * std::cos(2 * std::numbers::pi * x / length), 0.0);
-    return std::array{Vec3(Vec3(x, y, top - height) - deformation * slant), Vec3(Vec3(x, y, top + 2 * height) + deformation * slant)};
+    return std::array{Vec3(Vec3(x, y, top - height) - deformation * slant),
+                      Vec3(Vec3(x, y, top + 2 * height) + deformation * slant)};
   };
   recipe.depth = [deformation](std::array<std::int64_t, 3> c, std::array<int, 3> corner) {
     const double u = static_cast<double>(c[0] + corner[0]) / lateral;

@@ -9,8 +9,9 @@
 
 namespace wellknit::near_well {
 
-/// 20 x 20 x 12 cells of 40 x 40 x 15 m from 2000 m on: a dome with waves, layers of uneven thickness and slanted pillars, all times
-/// `deformation`; 0 gives a box grid. Porosity 0.2, permeability 1e-13 m2 laterally and 1e-14 m2 vertically.
+/// 20 x 20 x 12 cells of 40 x 40 x 15 m from 2000 m on: a dome with waves, layers of uneven thickness and slanted
+/// pillars, all times `deformation`; 0 gives a box grid. Porosity 0.2, permeability 1e-13 m2 laterally and 1e-14 m2
+/// vertically.
 Case deformed(double deformation);
 
 /// Permeability and porosity that vary from cell to cell, from a generator with this seed.

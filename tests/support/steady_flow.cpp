@@ -9,7 +9,8 @@
 
 namespace wellknit::steady_flow {
 
-std::vector<double> pressures(const Mesh& mesh, double bore_pressure, const std::function<std::optional<double>(CellId)>& fixed) {
+std::vector<double> pressures(const Mesh& mesh, double bore_pressure,
+                              const std::function<std::optional<double>(CellId)>& fixed) {
   const auto n = static_cast<Eigen::Index>(mesh.cells.size());
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
@@ -44,7 +45,8 @@ std::vector<double> pressures(const Mesh& mesh, double bore_pressure, const std:
 
 double well_rate(const Mesh& mesh, WellId well, double bore_pressure, const std::vector<double>& pressure) {
   double rate = 0.0;
-  for (const WellConnection& c : mesh.wells[well].connections) rate += c.well_index * (pressure[c.cell.index()] - bore_pressure);
+  for (const WellConnection& c : mesh.wells[well].connections)
+    rate += c.well_index * (pressure[c.cell.index()] - bore_pressure);
   return rate;
 }
 

@@ -13,7 +13,8 @@
 namespace wellknit::steady_flow {
 
 /// Pressures of all cells. `fixed` gives a cell's pressure or nothing; every well's bore is at `bore_pressure`.
-std::vector<double> pressures(const Mesh& mesh, double bore_pressure, const std::function<std::optional<double>(CellId)>& fixed);
+std::vector<double> pressures(const Mesh& mesh, double bore_pressure,
+                              const std::function<std::optional<double>(CellId)>& fixed);
 
 /// Flow into the bore of a well.
 double well_rate(const Mesh& mesh, WellId well, double bore_pressure, const std::vector<double>& pressure);
