@@ -22,6 +22,7 @@ constexpr std::array table{
     Entry{"build", "Host grid and wells to a mesh file", add_build},
     Entry{"check", "Validity and quality of a mesh file", add_check},
     Entry{"info", "What is in a deck, grid, well or mesh file", add_info},
+    Entry{"convert", "Mesh file, or a grid alone, to another format", add_convert},
     Entry{"formats", "The formats that can be read and written", add_formats},
 };
 

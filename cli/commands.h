@@ -19,6 +19,7 @@ using Run = std::function<int()>;
 Run add_build(CLI::App& app);
 Run add_check(CLI::App& app);
 Run add_info(CLI::App& app);
+Run add_convert(CLI::App& app);
 Run add_formats(CLI::App& app);
 
 /// The program with all its commands.

@@ -27,7 +27,7 @@ const WriterFormat& format_named(const std::string& name) {
   if (const WriterFormat* format = find_writer(name)) return *format;
   std::string names;
   for (const WriterFormat& format : writer_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
-  throw UsageError(fmt::format("--write: unknown format '{}'; the formats are {}", name, names));
+  throw UsageError(fmt::format("unknown format '{}'; the formats are {}", name, names));
 }
 
 /// Removes the outputs that have got their names already, unless all of them have.

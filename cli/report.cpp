@@ -174,6 +174,13 @@ Json json_of(const CavitySummary& cavity) {
 
 }  // namespace
 
+std::string to_text(const WrittenFile& file) {
+  std::string text =
+      fmt::format("wrote       {} ({}, {:.1f} MB)\n", file.path, file.format, static_cast<double>(file.bytes) / 1e6);
+  for (const std::string& note : file.notes) text += fmt::format("  {}\n", note);
+  return text;
+}
+
 std::string to_text(const BuildReport& report) {
   std::string text;
   const Text out(text);
@@ -186,11 +193,7 @@ std::string to_text(const BuildReport& report) {
   for (const std::string& note : report.notes) fmt::format_to(out, "note        {}\n", note);
   for (const std::string& note : report.build.notes) fmt::format_to(out, "note        {}\n", note);
   write_times(out, report);
-  for (const WrittenFile& file : report.files) {
-    fmt::format_to(out, "wrote       {} ({}, {:.1f} MB)\n", file.path, file.format,
-                   static_cast<double>(file.bytes) / 1e6);
-    for (const std::string& note : file.notes) fmt::format_to(out, "  {}\n", note);
-  }
+  for (const WrittenFile& file : report.files) text += to_text(file);
   return text;
 }
 

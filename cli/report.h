@@ -32,6 +32,8 @@ struct BuildReport {
   std::vector<std::string> notes;  ///< of the readers
 };
 
+/// "wrote …" and what its user must know; ends with a line feed.
+std::string to_text(const WrittenFile& file);
 /// Plain text for a terminal, ends with a line feed.
 std::string to_text(const BuildReport& report);
 /// The same as one JSON object (docs/commands/build.md).

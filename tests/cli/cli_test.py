@@ -154,7 +154,7 @@ class BadInput(Case):
                               ("--fault-policy", "heal"), ("--metric", "permeability"), ("--mapping", "best"),
                               ("--write", "vtu"), ("--write", "png=a.png"), ("--deck-wells", "")):
             with self.subTest(option=option, value=value):
-                self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", option, value, mention=[option])
+                self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", option, value, mention=[option if option != "--write" else value.split("=")[0]])
 
     def test_include_loop(self):
         self.write("box.GRDECL", "INCLUDE\n'other.inc' /\n" + grdecl())
@@ -249,6 +249,29 @@ class Threads(Case):
             made.append((self.folder / name).read_bytes())
         self.assertEqual(made[0], made[1])
         self.assertEqual(made[0], made[2])
+
+
+class Convert(Case):
+    def test_mesh_file_to_every_format(self):
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "vtu=direct.vtu")
+        self.assertIn("vtu", self.succeed("convert", "mesh.h5", "out.vtu"))
+        self.assertEqual((self.folder / "out.vtu").read_bytes(), (self.folder / "direct.vtu").read_bytes())
+        self.succeed("convert", "mesh.h5", "again.h5", "--quiet")
+        self.assertEqual((self.folder / "again.h5").read_bytes(), (self.folder / "mesh.h5").read_bytes())
+        self.succeed("convert", "mesh.h5", "deck.txt", "--to", "deck")
+
+    def test_grid_to_mesh_file(self):
+        self.succeed("convert", "box.GRDECL", "host.h5")
+        self.assertIn("valid", self.succeed("check", "host.h5"))
+
+    def test_refusals(self):
+        self.write("there.vtu", "precious")
+        self.fail_with(1, "convert", "box.GRDECL", "there.vtu", mention=["--overwrite"])
+        self.fail_with(1, "convert", "well.csv", "out.vtu", mention=["well.csv"])
+        self.fail_with(1, "convert", "nowhere.h5", "out.vtu", mention=["nowhere.h5"])
+        self.fail_with(2, "convert", "box.GRDECL", "out.xyz", mention=["--to"])
+        self.fail_with(2, "convert", "box.GRDECL", "out.vtu", "--to", "png", mention=["png"])
+        self.fail_with(2, "convert", "box.GRDECL", mention=["OUT"])
 
 
 class Wells(Case):
@@ -391,14 +414,14 @@ class Summary(Case):
 
 class Commands(Case):
     def test_help_and_version(self):
-        for command in ([], ["build"], ["check"], ["info"], ["formats"]):
+        for command in ([], ["build"], ["check"], ["info"], ["convert"], ["formats"]):
             with self.subTest(command=command):
                 self.assertIn("--help", self.succeed(*command, "--help"))
                 self.assertEqual(self.succeed(*command, "--version").split()[0], "wellknit")
 
     def test_help_names_every_command(self):
         text = self.succeed("--help")
-        for command in ("build", "check", "info", "formats"):
+        for command in ("build", "check", "info", "convert", "formats"):
             self.assertIn(command, text)
 
     def test_formats(self):
