@@ -89,7 +89,14 @@ class Builder {
   /// that could not carry it.
   static void take_effective_radius(Well& well) {
     if (!(well.skin < 0.0)) return;
-    well.radial.bore_radius *= std::exp(-well.skin);
+    const double effective = well.radial.bore_radius * std::exp(-well.skin);
+    if (!(effective < 0.9 * well.radial.drainage_radius))
+      throw InvalidInput(
+          fmt::format("well {}: a skin of {:g} is an effective bore radius of {:.3g} m, beyond the drainage radius of "
+                      "{:g} m: choose a "
+                      "larger drainage radius or check the skin",
+                      well.name, well.skin, effective, well.radial.drainage_radius));
+    well.radial.bore_radius = effective;
     well.skin = 0.0;
   }
 

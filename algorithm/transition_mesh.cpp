@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -86,7 +87,10 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
   TransitionMesh mesh;
   mesh.cavity = std::move(std::get<Cavity>(cavity));
   DiagramTrial trial = try_diagram(mesh.cavity, {});
-  if (trial.is_sound(mesh.cavity)) {
+  // The sites of a layered cavity stand in columns: moving one of a column would tilt the faces between its layers.
+  const bool is_layered =
+      std::all_of(mesh.cavity.tubes.begin(), mesh.cavity.tubes.end(), [](const Tube& t) { return t.layered; });
+  if (!is_layered && trial.is_sound(mesh.cavity)) {
     AdjustmentReport adjustment;
     trial = expand_short_edges(mesh.cavity, std::move(trial), adjustment);
     mesh.summary.short_edges = adjustment.short_after;
