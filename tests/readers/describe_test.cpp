@@ -70,7 +70,7 @@ TEST(Describe, TellsOfADecksWellsSourcesAndNotes) {
   EXPECT_EQ(file.wells[2].type, "injector");
   EXPECT_TRUE(file.wells[2].is_approximate);
   EXPECT_EQ(file.sources.size(), 3U);
-  EXPECT_EQ(file.notes.size(), 4U);
+  EXPECT_EQ(file.notes.size(), 3U);
 }
 
 TEST(Describe, TextNamesWhatTheStructHolds) {

@@ -104,8 +104,7 @@ TEST_F(PublicData, ReekComesInThreeFiles) {
   EXPECT_EQ(read.grid.dimensions, (std::array<std::int64_t, 3>{40, 64, 14}));
   EXPECT_EQ(read.grid.porosity[0], 0.177493915);
   EXPECT_EQ(read.sources.size(), 3U);
-  ASSERT_EQ(read.notes.size(), 1U);
-  EXPECT_NE(read.notes[0].find("FAULTS is not applied yet"), std::string::npos);
+  EXPECT_TRUE(read.notes.empty());
   EXPECT_FALSE(describe(read.grid).is_right_handed) << "as exported";
 }
 
