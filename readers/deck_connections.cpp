@@ -71,9 +71,10 @@ Fault& DeckConnections::fault_named(const std::string& name, std::int64_t line) 
   if (is_new) {
     edits_.faults.emplace_back().name = name;
   } else if (const std::string& first = edits_.faults[found->second].name; !equal_ignoring_case(first, name)) {
-    stream_.note_once("fault names", line,
-                      fmt::format("FAULTS {} and {} are one fault: names differ by their first {} characters only",
-                                  quoted_for_message(first), quoted_for_message(name), fault_name_length));
+    stream_.note_once(
+        "fault names", line,
+        fmt::format("FAULTS {} and {} are one fault: their first {} characters are the same, and only these count",
+                    quoted_for_message(first), quoted_for_message(name), fault_name_length));
   }
   return edits_.faults[found->second];
 }

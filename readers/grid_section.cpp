@@ -145,6 +145,7 @@ CornerPointGrid GridSection::finish() {
   if (!arrays_.has_dimensions())
     fail_missing("SPECGRID",
                  {"the dimensions of a grid (SPECGRID or DIMENS)", "none", "is this a deck or a GRDECL file?"});
+  arrays_.begin_section(DeckSection::bare);  // scratch arrays end
   CornerPointGrid grid;
   grid.dimensions = arrays_.dimensions();
   grid.units = units_;
