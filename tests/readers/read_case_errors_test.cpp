@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "readers/file_content.h"
 #include "readers/read_case.h"
@@ -204,6 +206,60 @@ TEST(CaseErrors, ErrorInAnIncludedFileNamesIt) {
   const auto error = error_in(grid + "INCLUDE\n p.inc /\n", {{"p.inc", "PORO\n\n abc /\n"}});
   ASSERT_TRUE(error);
   EXPECT_STREQ(error->what(), "p.inc:3: PORO: expected a number, found 'abc'");
+}
+
+/// Every file under testdata/grdecl/deck and beside it that stands for itself.
+const std::vector<std::string> samples{"box.GRDECL", "CONNECTIONS.DATA", "deck/BOX.DATA"};
+
+std::map<std::string, std::string> sample_with_includes(const std::string& name) {
+  const std::string folder = std::string(WELLKNIT_TESTDATA) + "/grdecl/";
+  std::map<std::string, std::string> files{{"case", load_file(folder + name).text}};
+  if (name == "deck/BOX.DATA") {
+    files["geometry.inc"] = load_file(folder + "deck/geometry.inc").text;
+    files["include/rock.inc"] = load_file(folder + "deck/include/Rock.inc").text;
+  }
+  return files;
+}
+
+/// A grid that holds together, or a ParseError; anything else fails the test.
+void read_damaged(std::map<std::string, std::string> files, const std::string& what) {
+  MemoryFiles store(std::move(files));
+  DeckLimits limits;
+  limits.free_values = 1'000'000;
+  limits.free_steps = 10'000'000;
+  try {
+    validate(parse_case(store, "case", {}, limits).grid);
+  } catch (const ParseError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
+  }
+}
+
+TEST(DamagedDecks, CutAtTwoHundredPlaces) {
+  for (const std::string& name : samples) {
+    const auto files = sample_with_includes(name);
+    const std::size_t size = files.at("case").size();
+    for (std::size_t n = 0; n < 200; ++n) {
+      auto cut = files;
+      cut["case"].resize(size * n / 200);
+      read_damaged(std::move(cut), name);
+    }
+  }
+}
+
+TEST(DamagedDecks, WithAThousandBytesFlipped) {
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  for (const std::string& name : samples) {
+    const auto files = sample_with_includes(name);
+    for (int n = 0; n < 1000; ++n) {
+      auto flipped = files;
+      std::string& text = flipped["case"];
+      char& byte = text[random() % text.size()];
+      byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1U + random() % 255U));
+      read_damaged(std::move(flipped), name);
+    }
+  }
 }
 
 /// One kind of fault in what follows the geometry of 2 x 1 x 1 cells, on which line of it, and what the error says.
