@@ -40,6 +40,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const wellknit::Case read = wellknit::parse_case(files, "case", {}, limits);
     wellknit::validate(read.grid);
     for (const wellknit::Well& well : read.deck_wells) check_well(well);
+    for (const wellknit::Fault& fault : read.grid.edits.faults) require(fault.face_count() > 0);
+    for (const std::string& note : read.notes) require(note.find('\n') == std::string::npos);
     (void)wellknit::describe(read.grid);
   } catch (const wellknit::ParseError& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos);

@@ -201,6 +201,91 @@ TEST(ReadCase, PassesOverListsThatOpenWithNamesOfArrays) {
   EXPECT_EQ(read.notes.size(), 2U);
 }
 
+TEST(ReadCase, PassesOverGridKeywordsByTheirForm) {
+  // One record, a list, a flag, an array: names of arrays in their data are data.
+  const Case read = case_of("GRID\n" + unit_boxes(2, 1, 1) + R"(RPTGRID
+PORO
+PERMX /
+THPRESFT
+PERMX 10 /
+PORO 2 /
+/
+RPTISOL
+NOGGF
+GRIDFILE
+ 0 1 /
+JFUNC
+ WATER 20 1* 0.5 0.5 XY /
+AQUANCON
+ 1 1 1 1 1 1 1 'I-' /
+/
+MULTREGD
+ 1 2 0.5 /
+/
+EDIT
+REGIONS
+RPTREGS
+SATNUM
+FIPNUM /
+)");
+  EXPECT_TRUE(read.notes.empty());
+  EXPECT_TRUE(read.grid.porosity.empty());
+  EXPECT_TRUE(read.grid.properties.empty());
+}
+
+TEST(ReadCase, NotesOnceWhatItRecognisesAndDoesNotApply) {
+  const Case read = case_of(unit_boxes(2, 1, 1) + R"(PINCHREG
+ 0.1 /
+/
+HALFTRAN
+PERMXX
+ 2*100 /
+DIFFX
+ 2*1 /
+MINNNCT
+ 1E-5 /
+AQUNUM
+ 1 1 1 1 100 /
+/
+PERMXX
+ 2*100 /
+)");
+  ASSERT_EQ(read.notes.size(), 6U);
+  for (const std::string& note : read.notes) EXPECT_NE(note.find(" is not applied yet"), std::string::npos) << note;
+}
+
+TEST(ReadCase, KeepsWhatTheMapIs) {
+  const CornerPointGrid grid = case_of("MAPUNITS\n FEET /\nGRIDUNIT\n METRES MAP /\n" + unit_boxes(1, 1, 1)).grid;
+  EXPECT_EQ(grid.metre_per_map_unit, 0.3048);
+  EXPECT_TRUE(grid.has_map_coordinates);
+  EXPECT_FALSE(case_of(unit_boxes(1, 1, 1)).grid.has_map_coordinates);
+  EXPECT_EQ(case_of(unit_boxes(1, 1, 1)).grid.metre_per_map_unit, 1.0);
+}
+
+TEST(ReadCase, NotesDepthsThatWouldBeHeights) {
+  EXPECT_TRUE(case_of("GDORIENT\n INC DEC INC DOWN LEFT /\n" + unit_boxes(1, 1, 1)).notes.empty());
+  const Case read = case_of("GDORIENT\n INC INC INC UP /\n" + unit_boxes(1, 1, 1));
+  ASSERT_EQ(read.notes.size(), 1U);
+  EXPECT_NE(read.notes[0].find("case.GRDECL:2: GDORIENT says that Z points UP"), std::string::npos);
+}
+
+TEST(ReadCase, TakesASpecgridTwiceAndSkipsWhatOtherSimulatorsSkip) {
+  const Case read =
+      case_of(unit_boxes(1, 1, 1) + "SPECGRID\n 1 1 1 1 F /\nSKIP\nPORO\n x /\nENDSKIP\nSKIP100\nPORO\n y " +
+              "/\nENDSKIP\nSKIP300\nporo 0.25/\nENDSKIP\n");
+  EXPECT_EQ(read.grid.porosity, (Reals{0.25})) << "ECLIPSE 100 reads what SKIP300 encloses";
+  EXPECT_TRUE(read.notes.empty());
+}
+
+TEST(ReadCase, CarriesArraysOfEverySection) {
+  const Case read = case_of("GRID\n" + unit_boxes(1, 1, 1) +
+                            "THCONR\n 2 /\nPROPS\nSWLX-\n 0.1 /\nIKRORGZ\n 0.5 /\nSWATINIT\n 0.3 /\nPRVD\n 1000 100 /\n"
+                            "REGIONS\nKRNUMX\n 2 /\nSOLUTION\nRVW\n 0.01 /\nTEMPI\n 60 /\n");
+  EXPECT_EQ(read.grid.properties.size(), 7U) << "PRVD is a table";
+  EXPECT_EQ(std::get<Integers>(read.grid.properties.at("KRNUMX")), (Integers{2}));
+  EXPECT_EQ(std::get<Reals>(read.grid.properties.at("SWLX-")), (Reals{0.1}));
+}
+
 TEST(ReadCase, ReadsFurtherGridFilesAfterTheCase) {
   MemoryFiles files({{"a/grid", unit_boxes(2, 1, 1) + "END\n"},
                      {"poro", "NOECHO\nPORO\n 0.1 0.2 /\nECHO\n"},
