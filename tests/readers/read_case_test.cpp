@@ -334,5 +334,20 @@ TOPS
   EXPECT_TRUE(read.grid.properties.empty()) << "DX and TOPS are geometry, no properties";
 }
 
+TEST(ReadCase, ReadsTopsOfEveryLayerWithGapsBetweenThem) {
+  const Case read =
+      case_of("DIMENS\n 1 1 2 /\nEQUALS\n DX 10 /\n DZ 5 /\n TOPS 100 4* 1 1 /\n TOPS 120 4* 2 2 /\n/\nDYV\n 20 /\n");
+  EXPECT_NEAR(volume(read.grid), 2 * 10.0 * 20.0 * 5.0, 1e-9);
+  const std::vector<double> zcorn{100, 100, 100, 100, 105, 105, 105, 105, 120, 120, 120, 120, 125, 125, 125, 125};
+  EXPECT_EQ(read.grid.zcorn, zcorn) << "a gap of 15 m between the layers";
+}
+
+TEST(ReadCase, HoldsCellSizesOfTheTopLayerForAll) {
+  const Case read = case_of(
+      "DIMENS\n 2 1 2 /\nBOX\n 1 2 1 1 1 1 /\nDX\n 10 30 /\nDY\n 2*20 /\nDZ\n 5 6 /\nTOPS\n 100 101 /\nENDBOX\n");
+  EXPECT_NEAR(volume(read.grid), 2 * (10 * 20 * 5 + 30 * 20 * 6), 1e-9);
+  EXPECT_EQ(read.notes.size(), 3U) << "DX, DY and DZ hold for the lower layer";
+}
+
 }  // namespace
 }  // namespace wellknit
