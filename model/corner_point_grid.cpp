@@ -68,6 +68,7 @@ void validate(const CornerPointGrid& grid) {
     if (!k.empty()) expect("permeability", k.size(), n);
   for (const auto& [name, values] : grid.properties)
     std::visit([&, &key = name](const auto& v) { expect(key, v.size(), n); }, values);
+  validate(grid.edits, grid.dimensions);
   const auto finite = [](double v) { return std::isfinite(v); };
   if (!std::all_of(grid.coord.begin(), grid.coord.end(), finite))
     throw InvalidInput("COORD holds a value that is not finite");

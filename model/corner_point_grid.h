@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "model/connection_edits.h"
 #include "model/geometry.h"
 #include "model/ids.h"
 #include "model/units.h"
@@ -39,6 +40,9 @@ struct CornerPointGrid {
   std::optional<std::array<double, 6>> mapaxes;  ///< as in the source
   UnitSystem units = UnitSystem::metric;         ///< of the source; the arrays here are SI already
   bool connects_across_pinch = false;            ///< PINCH given: cells above and below a zero-thickness cell connect
+  double metre_per_map_unit = 1.0;               ///< MAPUNITS: the unit of mapaxes
+  bool has_map_coordinates = false;  ///< GRIDUNIT … MAP: coord is in the map's frame, not in that of mapaxes
+  ConnectionEdits edits;             ///< what the deck says about connections and pore volumes
 
   [[nodiscard]] std::int64_t cell_count() const { return dimensions[0] * dimensions[1] * dimensions[2]; }
   [[nodiscard]] HostCellId cell_id(std::int64_t i, std::int64_t j, std::int64_t k) const {

@@ -42,6 +42,16 @@ constexpr double m3_per_transmissibility_unit(UnitSystem units) {
   return cp / (second_per_day * pascal_per_bar);
 }
 
+/// Reservoir volume: m3 in one deck unit (metric rm3, field rb, lab rcc).
+constexpr double m3_per_reservoir_volume_unit(UnitSystem units) {
+  switch (units) {
+    case UnitSystem::field: return m3_per_barrel;
+    case UnitSystem::lab: return 1e-6;
+    case UnitSystem::metric: break;
+  }
+  return 1.0;
+}
+
 constexpr std::string_view name_of(UnitSystem units) {
   switch (units) {
     case UnitSystem::field: return "FIELD";
