@@ -103,20 +103,6 @@ void read_into(DeckStream& stream, CellArray& array, const CellBox& box, ValueCo
   });
 }
 
-template <class T>
-T operated(const std::string& operation, T old, T value) {
-  if (operation == "EQUALS") return value;
-  if (operation == "ADD") return static_cast<T>(old + value);
-  if (operation == "MULTIPLY") return static_cast<T>(old * value);
-  return operation == "MINVALUE" ? std::max(old, value) : std::min(old, value);
-}
-
-/// In double, and held within the range of 32 bits, so that no operation overflows.
-std::int32_t operated_integer(const std::string& operation, std::int32_t old, double value) {
-  const double result = operated(operation, static_cast<double>(old), value);
-  return static_cast<std::int32_t>(std::clamp(std::trunc(result), -2147483647.0, 2147483647.0));
-}
-
 }  // namespace
 
 void CellArrays::set_dimensions(const std::array<std::int64_t, 3>& dimensions) {
@@ -191,7 +177,8 @@ std::vector<double> CellArrays::read_reals(std::int64_t count) {
 
 /// The array, made where it has a rule; nothing for a name that is no array we carry.
 CellArray* CellArrays::find_or_make(const std::string& name, std::int64_t line) {
-  if (const auto found = arrays.find(name); found != arrays.end()) return &found->second;
+  const std::string stored = stored_name(name);
+  if (const auto found = arrays.find(stored); found != arrays.end()) return &found->second;
   const CellArrayRule* rule = find_cell_array(name);
   if (rule == nullptr) {
     note_unknown(name, line);
@@ -204,88 +191,27 @@ CellArray* CellArrays::find_or_make(const std::string& name, std::int64_t line) 
     array.values = std::vector<double>(size, unset_real);
   else
     array.values = std::vector<std::int32_t>(size, unset_integer);
-  return &arrays.emplace(name, std::move(array)).first->second;
+  return &arrays.emplace(stored, std::move(array)).first->second;
 }
 
-void CellArrays::note_unknown(const std::string& name, std::int64_t line) {
-  if (is_unapplied_array(name))
-    stream_.note_once(name, line, fmt::format("{} is not applied yet", name));
-  else
-    stream_.note_once(name, line,
-                      fmt::format("{} on {}: no array of this name is carried; skipped", stream_.keyword().name,
-                                  quoted_for_message(name)));
+std::string CellArrays::stored_name(const std::string& name) const {
+  return section_ == DeckSection::edit && is_multiplier_array(name) ? edit_name(name) : name;
 }
 
-void CellArrays::read_operation() {
+void CellArrays::begin_section(DeckSection section) {
+  section_ = section;
+  std::erase_if(arrays, [](const auto& entry) { return is_work_array(entry.first); });
+  end_box();
+}
+
+void CellArrays::read_computed_array() {
   require_dimensions();
-  CellBox box = box_;
-  while (true) {
-    const DeckRecord record = stream_.next_record(8);
-    if (record.empty()) return;
-    const auto name = stream_.word(record, 0);
-    if (!name || !record.has(1))
-      stream_.fail(record.line,
-                   {"the name of an array and a second item", "less", "see the keyword's records in the manual"});
-    // Box items left out stay as the record before them had them.
-    box = read_box_items(record, 2, box);
-    stream_.charge_steps(box.cell_count());
-    if (stream_.keyword().name == "COPY")
-      copy(*name, record, box);
-    else
-      operate(*name, record, box);
-  }
-}
-
-void CellArrays::operate(const std::string& name, const DeckRecord& record, const CellBox& box) {
-  const std::string& operation = stream_.keyword().name;
-  const double value = *stream_.real(record, 1);
-  const bool is_new = arrays.find(name) == arrays.end();
-  const CellArrayRule* rule = find_cell_array(name);
-  if (is_new && rule != nullptr && !rule->has_default && operation != "EQUALS") {
-    stream_.fail(record.line, {fmt::format("the array {} before it", name), "none", "give the array first"});
-  }
-  CellArray* array = find_or_make(name, record.line);
-  if (array == nullptr) return;
-  array->last_set = here();
-  array->last_set.line = record.line;
-  if (auto* reals = std::get_if<std::vector<double>>(&array->values)) {
-    const double fallback = rule->has_default ? rule->default_value : unset_real;
-    for_each_cell(box, dimensions_, [&](std::size_t cell) {
-      double& entry = (*reals)[cell];
-      entry = operated(operation, is_unset(entry) ? fallback : entry, value);
-    });
-    return;
-  }
-  if (operation != "MULTIPLY" && value != std::trunc(value))
-    stream_.fail(record.line, {fmt::format("an integer for {}", name), quoted_for_message(record.items[1].text), ""});
-  auto& integers = std::get<std::vector<std::int32_t>>(array->values);
-  for_each_cell(box, dimensions_, [&](std::size_t cell) {
-    std::int32_t& entry = integers[cell];
-    entry =
-        operated_integer(operation, is_unset(entry) ? static_cast<std::int32_t>(rule->default_value) : entry, value);
-  });
-}
-
-void CellArrays::copy(const std::string& from, const DeckRecord& record, const CellBox& box) {
-  const std::string to = *stream_.word(record, 1);
-  const CellArrayRule* source_rule = find_cell_array(from);
-  if (source_rule == nullptr) return note_unknown(from, record.line);
-  if (arrays.find(from) == arrays.end() && !source_rule->has_default)
-    stream_.fail(record.line, {fmt::format("the array {} before it", from), "none", "give the array first"});
-  CellArray* target = find_or_make(to, record.line);
-  if (target == nullptr) return;
-  const CellArray* source = find_or_make(from, record.line);
-  target->last_set = here();
-  target->last_set.line = record.line;
-  if (source->values.index() != target->values.index())
-    stream_.fail(record.line, {"two arrays of one kind", fmt::format("{} and {}", from, to),
-                               "one is of integers, the other is not"});
-  std::visit(
-      [&](auto& values) {
-        const auto& given = std::get<std::decay_t<decltype(values)>>(source->values);
-        for_each_cell(box, dimensions_, [&](std::size_t cell) { values[cell] = given[cell]; });
-      },
-      target->values);
+  ArrayEdit edit;
+  edit.array = *find_computed_array(stream_.keyword().name);
+  edit.cells = box_;
+  const std::int64_t count = box_.cell_count();
+  edit.values = read_values<double>(stream_, {count, count});
+  edits.push_back(std::move(edit));
 }
 
 }  // namespace wellknit

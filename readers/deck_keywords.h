@@ -5,7 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
+
+#include "model/connection_edits.h"
 
 namespace wellknit {
 
@@ -26,13 +29,18 @@ enum class DeckAction : std::uint8_t {
   include,
   end,
   end_include,
-  skip_block,        ///< up to ENDSKIP
-  flag,              ///< known, without data and without meaning for the grid
-  skip,              ///< the same, with data
-  skip_record,       ///< the same, one record
-  not_applied,       ///< would change pore volumes or transmissibilities: noted
-  not_applied_list,  ///< the same, records up to an empty one
-  refuse,            ///< changes what the grid is
+  skip_block,   ///< up to ENDSKIP
+  flag,         ///< known, without data and without meaning for the grid
+  skip,         ///< the same, with data of any form: up to the next keyword
+  skip_record,  ///< the same, one record
+  skip_list,    ///< the same, records up to an empty one
+  not_applied,  ///< would change the grid, its connections or its rock: noted, skipped as above
+  not_applied_flag,
+  not_applied_record,
+  not_applied_list,
+  not_applied_array,  ///< one record of numbers
+  changed_in_time,    ///< a multiplier of the SCHEDULE section: noted
+  refuse,             ///< changes what the grid is
   title,
   paths,
   units,
@@ -44,10 +52,14 @@ enum class DeckAction : std::uint8_t {
   cell_array,
   box,
   end_box,
-  operation,  ///< EQUALS, COPY …
+  operation,       ///< EQUALS, COPY, OPERATE, EQUALREG …
+  computed_array,  ///< TRANX, PORV …: an edit of what is computed later
+  connections,     ///< FAULTS, MULTREGT, NNC, PINCH …
   mapaxes,
+  map_units,
   grid_unit,
-  pinch,
+  grid_orientation,
+  grid_options,
   welspecs,
   compdat,
   injectors,  ///< WCONINJE …
@@ -59,6 +71,7 @@ struct DeckKeywordRule {
   DeckAction action;
   std::uint16_t sections;        ///< bits of DeckSection
   std::string_view detail = {};  ///< refuse: what it asks for
+  std::string_view advice = {};  ///< refuse: what to do
 };
 
 /// The rule of a keyword (upper case) in this section, or nothing.
@@ -90,7 +103,19 @@ struct CellArrayRule {
 /// The rule of a keyword with one value a cell (upper case), or nothing. A FIP… name is a region array.
 const CellArrayRule* find_cell_array(std::string_view name);
 
-/// True for arrays that change pore volumes or transmissibilities and are not applied yet (MULTX, TRANX, PORV …).
+/// True for WORK1, WORK2 …: scratch arrays of a section.
+bool is_work_array(std::string_view name);
+
+/// The array that a simulator computes and EDIT changes (TRANX, PORV …), or nothing.
+std::optional<ComputedArray> find_computed_array(std::string_view name);
+
+/// True for MULTX, MULTX- … MULTZ-, MULTPV: EDIT multiplies what GRID gave.
+bool is_multiplier_array(std::string_view name);
+
+/// True for the arrays that the grid carries in its edits: the multipliers and MINPVV.
+inline bool ends_in_edits(std::string_view name) { return is_multiplier_array(name) || name == "MINPVV"; }
+
+/// True for arrays that are neither carried nor applied (tensor permeabilities, DIFFX …).
 bool is_unapplied_array(std::string_view name);
 
 }  // namespace wellknit

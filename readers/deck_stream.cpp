@@ -107,7 +107,7 @@ bool DeckStream::skip_lines_until(const std::function<bool(const Line&)>& accept
     }
     const std::string_view rest = tokens().rest_of_line();
     if (token.kind == DeckToken::Kind::word && token.first_on_line && is_keyword_name(token.text) &&
-        accepts({upper_case(token.text), rest, token.column, after_record, after_keyword})) {
+        accepts({upper_case(token.text), rest, token.column, after_record, after_keyword, token.line})) {
       tokens() = before;
       return true;
     }

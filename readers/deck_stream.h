@@ -81,6 +81,7 @@ class DeckStream {
     std::size_t column = 0;
     bool after_record = false;   ///< the line before it ended a record
     bool after_keyword = false;  ///< nothing was passed over yet
+    std::int64_t line = 0;
   };
   /// Passes over lines until one is accepted: that line is then the next keyword. False when the file ended before;
   /// reading goes on in the file that included it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "model/units.h"
 #include "readers/formats.h"
@@ -68,6 +69,43 @@ void measure_cells(GridDescription& out, const CornerPointGrid& grid) {
   if (out.active_cells == 0) out.least = out.most = Vec3::Zero();
 }
 
+/// Different numbers in the active cells of every array that names regions.
+void count_regions(EditsDescription& out, const CornerPointGrid& grid) {
+  for (const auto& [name, property] : grid.properties) {
+    const auto* numbers = std::get_if<std::vector<std::int32_t>>(&property);
+    if (numbers == nullptr) continue;
+    std::set<std::int32_t> seen;
+    std::optional<std::int32_t> last;
+    for (std::size_t cell = 0; cell < numbers->size(); ++cell) {
+      if (grid.active[cell] == 0 || (*numbers)[cell] == last) continue;
+      last = (*numbers)[cell];
+      seen.insert(*last);
+    }
+    out.regions[name] = static_cast<std::int64_t>(seen.size());
+  }
+}
+
+EditsDescription describe_edits(const CornerPointGrid& grid) {
+  const ConnectionEdits& edits = grid.edits;
+  EditsDescription out;
+  for (const Fault& fault : edits.faults) out.faults.push_back({fault.name, fault.face_count(), fault.multiplier});
+  for (const FaceDirection face : {FaceDirection::i_plus, FaceDirection::i_minus, FaceDirection::j_plus,
+                                   FaceDirection::j_minus, FaceDirection::k_plus, FaceDirection::k_minus})
+    if (!edits.face_multiplier[static_cast<std::size_t>(face)].empty())
+      out.multipliers.push_back(multiplier_keyword(face));
+  if (!edits.pore_volume_multiplier.empty() || !edits.pore_volume_multiplier_edit.empty())
+    out.multipliers.emplace_back("MULTPV");
+  if (!edits.least_pore_volume_by_cell.empty()) out.multipliers.emplace_back("MINPVV");
+  out.region_multipliers = static_cast<std::int64_t>(edits.region_multipliers.size());
+  out.region_pore_volumes = static_cast<std::int64_t>(edits.region_pore_volumes.size());
+  out.non_neighbours = static_cast<std::int64_t>(edits.non_neighbours.size());
+  out.edited_non_neighbours =
+      static_cast<std::int64_t>(edits.non_neighbour_multipliers.size() + edits.non_neighbour_transmissibilities.size());
+  for (const ArrayEdit& edit : edits.array_edits) ++out.array_edits[keyword_of(edit.array)];
+  count_regions(out, grid);
+  return out;
+}
+
 double largest_deviation(const Trajectory& trajectory) {
   double largest = 0.0;
   for (std::size_t n = 1; n < trajectory.points.size(); ++n) {
@@ -112,6 +150,7 @@ GridDescription describe(const CornerPointGrid& grid) {
   out.connects_across_pinch = grid.connects_across_pinch;
   measure_cells(out, grid);
   add_properties(out, grid);
+  out.edits = describe_edits(grid);
   return out;
 }
 

@@ -25,6 +25,24 @@ struct PropertyRange {
   std::string unit;  ///< "mD", "1", or empty: as in the source
 };
 
+struct FaultDescription {
+  std::string name;
+  std::int64_t faces = 0;
+  double multiplier = 1.0;  ///< of MULTFLT
+};
+
+/// What a deck says about connections and pore volumes: counts of its records, names of its arrays.
+struct EditsDescription {
+  std::vector<FaultDescription> faults;
+  std::vector<std::string> multipliers;             ///< MULTX, MULTX- …, MULTPV, MINPVV that are given
+  std::int64_t region_multipliers = 0;              ///< MULTREGT
+  std::int64_t region_pore_volumes = 0;             ///< MULTREGP
+  std::int64_t non_neighbours = 0;                  ///< NNC
+  std::int64_t edited_non_neighbours = 0;           ///< EDITNNC and EDITNNCR
+  std::map<std::string, std::int64_t> array_edits;  ///< steps of EDIT on TRANX …, by array
+  std::map<std::string, std::int64_t> regions;      ///< region arrays (…NUM, FIP…): how many numbers they hold
+};
+
 struct GridDescription {
   std::array<std::int64_t, 3> dimensions{};
   std::int64_t active_cells = 0;
@@ -38,6 +56,7 @@ struct GridDescription {
   bool has_map_axes = false;
   bool connects_across_pinch = false;
   std::vector<PropertyRange> properties;
+  EditsDescription edits;
 };
 
 struct WellDescription {

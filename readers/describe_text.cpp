@@ -3,6 +3,7 @@
 
 /// The two forms of a description: text and JSON.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,34 @@ namespace wellknit {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// "name (count), name (count)".
+std::string counted(const std::map<std::string, std::int64_t>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+  return text;
+}
+
+std::string edits_text(const EditsDescription& edits) {
+  std::string text;
+  const auto line = [&](std::string_view what, const std::string& value) {
+    if (!value.empty()) text += fmt::format("{:<13} {}\n", what, value);
+  };
+  const auto count = [](std::int64_t n, std::string_view keyword) {
+    return n == 0 ? std::string() : fmt::format("{} of {}", n, keyword);
+  };
+  for (const FaultDescription& fault : edits.faults)
+    line("fault", fmt::format("{}: {} faces{}", fault.name, fault.faces,
+                              fault.multiplier == 1.0 ? "" : fmt::format(", multiplier {:g}", fault.multiplier)));
+  line("multipliers", fmt::format("{}", fmt::join(edits.multipliers, ", ")));
+  line("region pairs", count(edits.region_multipliers, "MULTREGT"));
+  line("region pores", count(edits.region_pore_volumes, "MULTREGP"));
+  line("connections", count(edits.non_neighbours, "NNC"));
+  line("edited", count(edits.edited_non_neighbours, "EDITNNC and EDITNNCR"));
+  line("array edits", counted(edits.array_edits));
+  line("regions", counted(edits.regions));
+  return text;
+}
 
 std::string grid_text(const GridDescription& grid) {
   const auto& n = grid.dimensions;
@@ -33,6 +62,7 @@ std::string grid_text(const GridDescription& grid) {
   for (const PropertyRange& range : grid.properties)
     text += fmt::format("{:<13} {:.6g} to {:.6g}{}\n", range.name, range.least, range.most,
                         range.unit == "mD" ? " mD" : "");
+  text += edits_text(grid.edits);
   return text;
 }
 
@@ -67,6 +97,21 @@ std::string mesh_text(const MeshDescription& mesh) {
 /// JSON has no infinity.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json edits_json(const EditsDescription& edits) {
+  Json out;
+  out["faults"] = Json::array();
+  for (const FaultDescription& fault : edits.faults)
+    out["faults"].push_back({{"name", fault.name}, {"faces", fault.faces}, {"multiplier", number(fault.multiplier)}});
+  out["multipliers"] = edits.multipliers;
+  out["region_multipliers"] = edits.region_multipliers;
+  out["region_pore_volumes"] = edits.region_pore_volumes;
+  out["non_neighbours"] = edits.non_neighbours;
+  out["edited_non_neighbours"] = edits.edited_non_neighbours;
+  out["array_edits"] = edits.array_edits;
+  out["regions"] = edits.regions;
+  return out;
+}
+
 Json grid_json(const GridDescription& grid) {
   Json out;
   out["dimensions"] = grid.dimensions;
@@ -86,6 +131,7 @@ Json grid_json(const GridDescription& grid) {
   for (const PropertyRange& range : grid.properties)
     out["properties"][range.name] = {
         {"least", number(range.least)}, {"most", number(range.most)}, {"unit", range.unit}};
+  out["edits"] = edits_json(grid.edits);
   return out;
 }
 

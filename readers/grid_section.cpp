@@ -96,36 +96,45 @@ void GridSection::read_mapaxes() {
   mapaxes_ = axes;
 }
 
+/// METRES, FEET or CM as item 1, in metres; nothing for a default.
+std::optional<double> GridSection::read_length_unit(const DeckRecord& record) const {
+  const std::string unit = stream_.word(record, 0).value_or("");
+  if (unit.empty()) return std::nullopt;
+  if (unit == "METRES" || unit == "METERS") return 1.0;
+  if (unit == "FEET") return metre_per_foot;
+  if (unit == "CM") return 0.01;
+  stream_.fail(record.line, {"METRES, FEET or CM", quoted_for_message(unit), ""});
+}
+
 void GridSection::read_grid_unit() {
   const DeckRecord record = stream_.next_record(2);
-  const std::string unit = stream_.word(record, 0).value_or("");
-  if (unit == "METRES" || unit == "METERS")
-    metre_per_grid_unit_ = 1.0;
-  else if (unit == "FEET")
-    metre_per_grid_unit_ = metre_per_foot;
-  else if (unit == "CM")
-    metre_per_grid_unit_ = 0.01;
-  else if (!unit.empty())
-    stream_.fail(record.line, {"METRES, FEET or CM", quoted_for_message(unit), ""});
+  if (const auto unit = read_length_unit(record)) metre_per_grid_unit_ = unit;
   const std::string frame = stream_.word(record, 1).value_or("");
   if (!frame.empty() && frame != "MAP")
     stream_.fail(record.line, {"MAP or a blank as item 2", quoted_for_message(frame), ""});
+  has_map_coordinates_ = frame == "MAP";
 }
 
-void GridSection::read_pinch() {
+void GridSection::read_map_units() { metre_per_map_unit_ = read_length_unit(stream_.next_record(1)).value_or(1.0); }
+
+/// How I, J, K and Z run is seen from the corners themselves; only depths that would be heights matter.
+void GridSection::read_grid_orientation() {
   const DeckRecord record = stream_.next_record(5);
-  (void)stream_.real(record, 0);
-  (void)stream_.real(record, 2);
-  const auto check = [&](std::size_t item, const std::vector<std::string>& options) {
+  static constexpr std::array<std::array<std::string_view, 2>, 5> options{
+      {{"INC", "DEC"}, {"INC", "DEC"}, {"INC", "DEC"}, {"DOWN", "UP"}, {"RIGHT", "LEFT"}}};
+  for (std::size_t item = 0; item < options.size(); ++item) {
     const auto word = stream_.word(record, item);
-    if (word && std::find(options.begin(), options.end(), *word) == options.end())
-      stream_.fail(record.line, {fmt::format("{} or {} as item {}", options[0], options[1], item + 1),
+    if (word && *word != options[item][0] && *word != options[item][1])
+      stream_.fail(record.line, {fmt::format("{} or {} as item {}", options[item][0], options[item][1], item + 1),
                                  quoted_for_message(*word), ""});
-  };
-  check(1, {"GAP", "NOGAP"});
-  check(3, {"TOPBOT", "ALL"});
-  check(4, {"TOP", "ALL"});
-  connects_across_pinch_ = true;
+  }
+  if (stream_.word(record, 3).value_or("DOWN") == "UP")
+    stream_.note(record.line, "GDORIENT says that Z points UP; ZCORN is read as depths, positive down");
+}
+
+void GridSection::read_grid_options() {
+  const DeckRecord record = stream_.next_record(3);
+  arrays_.set_multiplier_regions(stream_.integer(record, 1).value_or(0));
 }
 
 void GridSection::fail_missing(const std::string& keyword, ParseError::What what) const {
@@ -136,11 +145,15 @@ CornerPointGrid GridSection::finish() {
   if (!arrays_.has_dimensions())
     fail_missing("SPECGRID",
                  {"the dimensions of a grid (SPECGRID or DIMENS)", "none", "is this a deck or a GRDECL file?"});
+  arrays_.begin_section(DeckSection::bare);  // scratch arrays end
   CornerPointGrid grid;
   grid.dimensions = arrays_.dimensions();
   grid.units = units_;
   grid.mapaxes = mapaxes_;
-  grid.connects_across_pinch = connects_across_pinch_;
+  grid.metre_per_map_unit = metre_per_map_unit_;
+  grid.has_map_coordinates = has_map_coordinates_;
+  grid.edits = connections_.finish(units_);
+  grid.connects_across_pinch = grid.edits.pinch.has_value();
   make_geometry(grid);
   take_active(grid);
   grid.porosity = take_rock_array("PORO", grid);
@@ -181,6 +194,7 @@ void GridSection::make_block_centred(CornerPointGrid& grid) {
     if (const auto found = arrays_.arrays.find(names[n]); found != arrays_.arrays.end()) {
       values[n] = std::get<std::vector<double>>(std::move(found->second.values));
       arrays_.arrays.erase(found);
+      if (n < 3) fill_down(values[n], names[n]);
     } else if (n < 3 && !spacing_[n].empty()) {
       stream_.charge_values(grid.cell_count());
       for (std::int64_t cell = 0; cell < grid.cell_count(); ++cell)
@@ -199,6 +213,19 @@ void GridSection::make_block_centred(CornerPointGrid& grid) {
   } catch (const InvalidInput& error) {
     fail_missing("DX", {"a block-centred grid with pillars", error.what(), ""});
   }
+}
+
+/// An array that is given for the top layer, and for no cell below it, holds for every layer.
+void GridSection::fill_down(std::vector<double>& values, const std::string& name) const {
+  const auto& n = arrays_.dimensions();
+  const auto layer = static_cast<std::ptrdiff_t>(n[0] * n[1]);
+  const auto below = values.begin() + layer;
+  if (below == values.end() || !std::all_of(values.begin(), below, [](double v) { return is_given(v); }) ||
+      std::any_of(below, values.end(), [](double v) { return is_given(v); }))
+    return;
+  for (auto at = below; at != values.end(); ++at) *at = *(at - layer);
+  stream_.notes.push_back(
+      fmt::format("{}: {} is given for the top layer only and holds for those below", stream_.main_file(), name));
 }
 
 void GridSection::take_active(CornerPointGrid& grid) {
@@ -221,6 +248,7 @@ std::vector<double> GridSection::take_rock_array(const std::string& name, const 
   if (found == arrays_.arrays.end()) return {};
   const CellArrayRule& rule = *find_cell_array(name);
   auto values = std::get<std::vector<double>>(std::move(found->second.values));
+  if (!rule.has_default) fill_down(values, name);
   for (std::size_t cell = 0; cell < values.size(); ++cell) {
     double& value = values[cell];
     if (std::isnan(value) && !rule.has_default && grid.active[cell] != 0)

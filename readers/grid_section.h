@@ -10,6 +10,7 @@
 
 #include "model/corner_point_grid.h"
 #include "readers/cell_arrays.h"
+#include "readers/deck_connections.h"
 #include "readers/deck_stream.h"
 
 namespace wellknit {
@@ -19,7 +20,7 @@ using CellSpacing = std::array<std::vector<double>, 3>;
 
 class GridSection {
  public:
-  explicit GridSection(DeckStream& stream) : stream_(stream), arrays_(stream) {}
+  explicit GridSection(DeckStream& stream) : stream_(stream), arrays_(stream), connections_(stream, arrays_) {}
 
   // Each reads the records of the current keyword.
   void read_dimensions();
@@ -29,12 +30,15 @@ class GridSection {
   void read_spacing();
   void read_mapaxes();
   void read_grid_unit();
-  void read_pinch();
+  void read_map_units();
+  void read_grid_orientation();
+  void read_grid_options();
 
   void set_units(UnitSystem units) { units_ = units; }
   [[nodiscard]] UnitSystem units() const { return units_; }
   [[nodiscard]] CellArrays& arrays() { return arrays_; }
   [[nodiscard]] const CellArrays& arrays() const { return arrays_; }
+  [[nodiscard]] DeckConnections& connections() { return connections_; }
 
   /// The grid, when everything is read. Throws ParseError when geometry is missing or a value cannot be.
   CornerPointGrid finish();
@@ -44,20 +48,24 @@ class GridSection {
   void make_geometry(CornerPointGrid& grid);
   void make_block_centred(CornerPointGrid& grid);
   void scale_lengths(CornerPointGrid& grid, double metre_per_unit) const;
+  void fill_down(std::vector<double>& values, const std::string& name) const;
   void take_active(CornerPointGrid& grid);
   std::vector<double> take_rock_array(const std::string& name, const CornerPointGrid& grid);
   void take_properties(CornerPointGrid& grid);
+  [[nodiscard]] std::optional<double> read_length_unit(const DeckRecord& record) const;
   [[noreturn]] void fail_missing(const std::string& keyword, ParseError::What what) const;
 
   DeckStream& stream_;
   CellArrays arrays_;
+  DeckConnections connections_;
   UnitSystem units_ = UnitSystem::metric;
   std::optional<double> metre_per_grid_unit_;
   std::vector<double> coord_;
   std::vector<double> zcorn_;
   CellSpacing spacing_;
   std::optional<std::array<double, 6>> mapaxes_;
-  bool connects_across_pinch_ = false;
+  double metre_per_map_unit_ = 1.0;
+  bool has_map_coordinates_ = false;
 };
 
 }  // namespace wellknit

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "readers/deck_keywords.h"
@@ -12,10 +13,19 @@
 #include "readers/grid_section.h"
 #include "readers/parse_case.h"
 #include "readers/text.h"
+#include "readers/unapplied.h"
 
 namespace wellknit {
 
 namespace {
+
+/// Of a line's rest, up to its '/': 600*0.2, 1.0D+3 …
+bool holds_numbers_only(std::string_view text) {
+  const std::string_view record = text.substr(0, text.find('/'));
+  return std::all_of(record.begin(), record.end(), [](char c) {
+    return is_digit(c) || is_blank(c) || std::string_view(".+-*eEdD").find(c) != std::string_view::npos;
+  });
+}
 
 class CaseReader {
  public:
@@ -25,13 +35,19 @@ class CaseReader {
   void read(const std::string& path);
   Case finish();
   /// The next file is read as a bare one, whatever section the last one ended in.
-  void start_grid_include() { section_ = DeckSection::bare; }
+  void start_grid_include() {
+    section_ = DeckSection::bare;
+    grid_.arrays().begin_section(section_);
+  }
 
  private:
   void skip_to_next_keyword();
   [[nodiscard]] bool begins_known_keyword(const DeckStream::Line& line) const;
   [[nodiscard]] bool begins_keyword_after_unknown(const DeckStream::Line& line) const;
+  void refuse_ambiguous(const DeckStream::Line& line) const;
   void handle(const DeckKeyword& keyword);
+  bool pass_over(const DeckKeyword& keyword, DeckAction action);
+  void skip_array();
   void handle_form(const DeckKeyword& keyword, const DeckKeywordRule& rule);
   void handle_grid(const DeckKeyword& keyword, const DeckKeywordRule& rule);
   void begin_section(const std::string& name);
@@ -87,9 +103,27 @@ bool CaseReader::begins_keyword_after_unknown(const DeckStream::Line& line) cons
   const bool may_begin = line.after_record || line.after_keyword;
   if (find_deck_keyword(line.first, section_) == nullptr)
     return line.rest.empty() && line.column == 0 && may_begin && line.first.size() >= shortest_unknown;
-  // Records of an unknown keyword may open with the name of an array.
-  if (!line.rest.empty() && is_digit(line.rest.front())) return line.column == 0 && line.after_record;
-  return begins_known_keyword(line);
+  // Records of an unknown keyword may open with the name of an array: "PERMX 100 1 M /".
+  if (!line.rest.empty() && is_digit(line.rest.front())) {
+    if (line.column == 0 && may_begin && holds_numbers_only(line.rest)) refuse_ambiguous(line);
+    return false;
+  }
+  if (!begins_known_keyword(line)) return false;
+  if (!may_begin) refuse_ambiguous(line);
+  return true;
+}
+
+/// A keyword in the midst of a record that we do not know may be that record's data: reading it would be a guess, and
+/// so would be passing over it.
+void CaseReader::refuse_ambiguous(const DeckStream::Line& line) const {
+  const DeckAction action = find_deck_keyword(line.first, section_)->action;
+  if (action == DeckAction::begin_section || action == DeckAction::include || action == DeckAction::end ||
+      action == DeckAction::end_include)
+    return;
+  const std::string& unknown = stream_.keyword().name;
+  stream_.fail(line.line, {fmt::format("a '/' that ends the data of {}", unknown),
+                           fmt::format("the keyword {}", quoted_for_message(line.first)),
+                           fmt::format("{} is not known: end its data with '/', or take it out of the deck", unknown)});
 }
 
 void CaseReader::handle(const DeckKeyword& keyword) {
@@ -97,18 +131,13 @@ void CaseReader::handle(const DeckKeyword& keyword) {
   if (rule == nullptr) return skip_unknown(keyword);
   switch (rule->action) {
     case DeckAction::refuse:
-      stream_.fail(keyword.line, {"a single corner-point grid in text", std::string(rule->detail),
-                                  "not read yet; export the global grid without it"});
-    case DeckAction::not_applied_list:
-      stream_.note_once(keyword.name, keyword.line, fmt::format("{} is not applied yet", keyword.name));
-      while (!stream_.next_record(1000).empty()) continue;
+      stream_.fail(keyword.line,
+                   {"a single corner-point grid in text", std::string(rule->detail),
+                    rule->advice.empty() ? "export the global grid without it" : std::string(rule->advice)});
+    case DeckAction::changed_in_time:
+      stream_.note_once(keyword.name + " in time", keyword.line,
+                        fmt::format("{} in SCHEDULE changes the grid with time; it is not applied", keyword.name));
       return;
-    case DeckAction::not_applied:
-      stream_.note_once(keyword.name, keyword.line, fmt::format("{} is not applied yet", keyword.name));
-      [[fallthrough]];
-    case DeckAction::skip: skips_unknown_ = true; return;
-    case DeckAction::flag: return;
-    case DeckAction::skip_record: stream_.skip_record(); return;
     case DeckAction::well_path:
       stream_.note_once(keyword.name, keyword.line,
                         fmt::format("{} is not read yet; give the path as a trajectory file", keyword.name));
@@ -117,7 +146,42 @@ void CaseReader::handle(const DeckKeyword& keyword) {
     case DeckAction::welspecs: return wells_.read_welspecs();
     case DeckAction::compdat: return wells_.read_compdat();
     case DeckAction::injectors: return wells_.read_injectors();
-    default: return handle_form(keyword, *rule);
+    default: break;
+  }
+  if (!pass_over(keyword, rule->action)) handle_form(keyword, *rule);
+}
+
+/// Keywords that have no effect, by the form of their data. False for any other.
+bool CaseReader::pass_over(const DeckKeyword& keyword, DeckAction action) {
+  switch (action) {
+    case DeckAction::not_applied:
+    case DeckAction::not_applied_flag:
+    case DeckAction::not_applied_record:
+    case DeckAction::not_applied_list:
+    case DeckAction::not_applied_array: note_not_applied(stream_, keyword.name, keyword.line); break;
+    default: break;
+  }
+  switch (action) {
+    case DeckAction::flag:
+    case DeckAction::not_applied_flag: return true;
+    case DeckAction::skip:
+    case DeckAction::not_applied: skips_unknown_ = true; return true;
+    case DeckAction::skip_record:
+    case DeckAction::not_applied_record: stream_.skip_record(); return true;
+    case DeckAction::not_applied_array: skip_array(); return true;
+    case DeckAction::skip_list:
+    case DeckAction::not_applied_list:
+      while (!stream_.next_record(1000).empty()) continue;
+      return true;
+    default: return false;
+  }
+}
+
+/// Numbers up to '/': a word among them means that the '/' is missing.
+void CaseReader::skip_array() {
+  while (const auto token = stream_.next_value()) {
+    if (!token->value.empty() && !parse_real(token->value))
+      stream_.fail(stream_.line(), {"a number", quoted_for_message(token->value), ""});
   }
 }
 
@@ -143,13 +207,21 @@ void CaseReader::handle_grid(const DeckKeyword& keyword, const DeckKeywordRule& 
     case DeckAction::coord: return grid_.read_coord();
     case DeckAction::zcorn: return grid_.read_zcorn();
     case DeckAction::spacing: return grid_.read_spacing();
-    case DeckAction::cell_array: return grid_.arrays().read_array(*find_cell_array(keyword.name));
+    case DeckAction::cell_array:
+      if (ends_in_edits(keyword.name)) note_not_applied(stream_, keyword.name, keyword.line);
+      return grid_.arrays().read_array(*find_cell_array(keyword.name));
+    case DeckAction::computed_array:
+      note_not_applied(stream_, keyword.name, keyword.line);
+      return grid_.arrays().read_computed_array();
+    case DeckAction::connections: return grid_.connections().read();
     case DeckAction::box: return grid_.arrays().read_box();
     case DeckAction::end_box: return grid_.arrays().end_box();
     case DeckAction::operation: return grid_.arrays().read_operation();
     case DeckAction::mapaxes: return grid_.read_mapaxes();
     case DeckAction::grid_unit: return grid_.read_grid_unit();
-    case DeckAction::pinch: return grid_.read_pinch();
+    case DeckAction::map_units: return grid_.read_map_units();
+    case DeckAction::grid_orientation: return grid_.read_grid_orientation();
+    case DeckAction::grid_options: return grid_.read_grid_options();
     default: return;
   }
 }
@@ -165,7 +237,7 @@ void CaseReader::set_units(const std::string& name) {
 
 void CaseReader::begin_section(const std::string& name) {
   section_ = section_of(name);
-  grid_.arrays().end_box();
+  grid_.arrays().begin_section(section_);
   // "GRID ======": what follows on the line is decoration.
   stream_.skip_rest_of_line();
 }

@@ -70,7 +70,7 @@ TEST(Describe, TellsOfADecksWellsSourcesAndNotes) {
   EXPECT_EQ(file.wells[2].type, "injector");
   EXPECT_TRUE(file.wells[2].is_approximate);
   EXPECT_EQ(file.sources.size(), 3U);
-  EXPECT_EQ(file.notes.size(), 4U);
+  EXPECT_EQ(file.notes.size(), 3U);
 }
 
 TEST(Describe, TextNamesWhatTheStructHolds) {
@@ -80,6 +80,34 @@ TEST(Describe, TextNamesWhatTheStructHolds) {
         "well INJ: injector, 2 completed cells", "read geometry.inc sha256 ", "note: ", "UNHEARD is not understood"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_EQ(text.back(), '\n');
+}
+
+TEST(Describe, TellsOfFaultsMultipliersAndRegions) {
+  const FileDescription file = describe_file(testdata + "/grdecl/CONNECTIONS.DATA");
+  const EditsDescription& edits = file.grid->edits;
+  ASSERT_EQ(edits.faults.size(), 3U);
+  EXPECT_EQ(edits.faults[0].name, "North fault");
+  EXPECT_EQ(edits.faults[0].faces, 2 * 3 * 2);
+  EXPECT_EQ(edits.faults[2].multiplier, 4.0);
+  EXPECT_EQ(edits.multipliers, (std::vector<std::string>{"MULTX-", "MULTZ", "MULTPV", "MINPVV"}));
+  EXPECT_EQ(edits.non_neighbours, 2);
+  EXPECT_EQ(edits.array_edits,
+            (std::map<std::string, std::int64_t>{{"DEPTH", 1}, {"PORV", 1}, {"TRANX", 1}, {"TRANY", 2}, {"TRANZ", 1}}));
+  EXPECT_EQ(edits.regions,
+            (std::map<std::string, std::int64_t>{{"FIPNUM", 2}, {"FLUXNUM", 4}, {"MULTNUM", 2}, {"OPERNUM", 2}}));
+  const std::string text = to_text(file);
+  for (const char* part :
+       {"fault         North fault: 12 faces, multiplier 0.1\n", "multipliers   MULTX-, MULTZ, MULTPV, MINPVV\n",
+        "region pairs  3 of MULTREGT\n", "connections   2 of NNC\n", "edited        2 of EDITNNC and EDITNNCR\n",
+        "array edits   DEPTH (1), PORV (1), TRANX (1), TRANY (2), TRANZ (1)\n",
+        "regions       FIPNUM (2), FLUXNUM (4), MULTNUM (2), OPERNUM (2)\n"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  const auto json = nlohmann::json::parse(to_json(file))["grid"]["edits"];
+  EXPECT_EQ(json["faults"][1]["name"], "SOUTH");
+  EXPECT_EQ(json["faults"][1]["multiplier"], 0.0);
+  EXPECT_EQ(json["multipliers"].size(), 4U);
+  EXPECT_EQ(json["non_neighbours"], 2);
+  EXPECT_EQ(json["regions"]["FLUXNUM"], 4);
 }
 
 TEST(Describe, JsonHoldsTheSame) {

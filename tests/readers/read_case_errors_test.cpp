@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "readers/file_content.h"
 #include "readers/read_case.h"
@@ -205,6 +207,126 @@ TEST(CaseErrors, ErrorInAnIncludedFileNamesIt) {
   ASSERT_TRUE(error);
   EXPECT_STREQ(error->what(), "p.inc:3: PORO: expected a number, found 'abc'");
 }
+
+/// Every file under testdata/grdecl/deck and beside it that stands for itself.
+const std::vector<std::string> samples{"box.GRDECL", "CONNECTIONS.DATA", "deck/BOX.DATA"};
+
+std::map<std::string, std::string> sample_with_includes(const std::string& name) {
+  const std::string folder = std::string(WELLKNIT_TESTDATA) + "/grdecl/";
+  std::map<std::string, std::string> files{{"case", load_file(folder + name).text}};
+  if (name == "deck/BOX.DATA") {
+    files["geometry.inc"] = load_file(folder + "deck/geometry.inc").text;
+    files["include/rock.inc"] = load_file(folder + "deck/include/Rock.inc").text;
+  }
+  return files;
+}
+
+/// A grid that holds together, or a ParseError; anything else fails the test.
+void read_damaged(std::map<std::string, std::string> files, const std::string& what) {
+  MemoryFiles store(std::move(files));
+  DeckLimits limits;
+  limits.free_values = 1'000'000;
+  limits.free_steps = 10'000'000;
+  try {
+    validate(parse_case(store, "case", {}, limits).grid);
+  } catch (const ParseError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
+  }
+}
+
+TEST(DamagedDecks, CutAtTwoHundredPlaces) {
+  for (const std::string& name : samples) {
+    const auto files = sample_with_includes(name);
+    const std::size_t size = files.at("case").size();
+    for (std::size_t n = 0; n < 200; ++n) {
+      auto cut = files;
+      cut["case"].resize(size * n / 200);
+      read_damaged(std::move(cut), name);
+    }
+  }
+}
+
+TEST(DamagedDecks, WithAThousandBytesFlipped) {
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  for (const std::string& name : samples) {
+    const auto files = sample_with_includes(name);
+    for (int n = 0; n < 1000; ++n) {
+      auto flipped = files;
+      std::string& text = flipped["case"];
+      char& byte = text[random() % text.size()];
+      byte = static_cast<char>(static_cast<unsigned char>(byte) ^ (1U + random() % 255U));
+      read_damaged(std::move(flipped), name);
+    }
+  }
+}
+
+/// One kind of fault in what follows the geometry of 2 x 1 x 1 cells, on which line of it, and what the error says.
+struct Broken {
+  const char* text;
+  std::int64_t line;  ///< 1: the first line of the text
+  const char* keyword;
+  const char* message;
+};
+
+std::ostream& operator<<(std::ostream& out, const Broken& broken) { return out << broken.text; }
+
+class BrokenDeck : public ::testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenDeck, IsAnErrorOnItsLine) {
+  const std::string geometry = unit_boxes(2, 1, 1);
+  const auto before = std::count(geometry.begin(), geometry.end(), '\n');
+  const Broken& broken = GetParam();
+  expect_error(geometry + broken.text, before + broken.line, broken.keyword, broken.message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, BrokenDeck,
+    ::testing::Values(
+        Broken{"FAULTS\n F 1 1 1 1 1 1 W /\n/\n", 2, "FAULTS", "a face as item 8: X, Y, Z, X-"},
+        Broken{"FAULTS\n F 1 1 1 1 1 1 X /\n F 1 1 1 1 1 1 /\n/\n", 3, "FAULTS", "found no item 8"},
+        Broken{"FAULTS\n F 1 3 1 1 1 1 X /\n/\n", 2, "FAULTS", "a box within 1 and 2 along I, found 1 to 3"},
+        Broken{"FAULTS\n F 1 a 1 1 1 1 X /\n/\n", 2, "FAULTS", "an integer as item 3, found 'a'"},
+        Broken{"FAULTS\n F 1 1 1 1 1 1 X 9 /\n/\n", 2, "FAULTS", "at most 8 items in the record"},
+        Broken{"MULTFLT\n F /\n/\n", 2, "MULTFLT", "a multiplier of 0 or more as item 2, found none"},
+        Broken{"MULTFLT\n F -1 /\n/\n", 2, "MULTFLT", "found '-1'"},
+        Broken{"MULTREGT\n 1 2 0.5 XX /\n/\n", 2, "MULTREGT", "X, Y, Z, XY, XZ, YZ or XYZ as item 4, found 'XX'"},
+        Broken{"MULTREGT\n 1 2 0.5 XYZ SOME /\n/\n", 2, "MULTREGT", "ALL, NNC, NONNC or NOAQUNNC as item 5"},
+        Broken{"MULTREGT\n 1 2 0.5 XYZ ALL Q /\n/\n", 2, "MULTREGT", "M, F or O as item 6, found 'Q'"},
+        Broken{"MULTREGT\n 1 2 /\n/\n", 2, "MULTREGT", "as item 3, found none"},
+        Broken{"MULTREGP\n 1* 2 /\n/\n", 2, "MULTREGP", "the number of a region as item 1"},
+        Broken{"NNC\n 1 1 1 3 1 1 0.1 /\n/\n", 2, "NNC", "I of a cell within 1 and 2 as item 4, found '3'"},
+        Broken{"NNC\n 1 1 1 2 0 1 0.1 /\n/\n", 2, "NNC", "J of a cell within 1 and 1 as item 5, found '0'"},
+        Broken{"NNC\n 1 1 1 1 1 1 0.1 /\n/\n", 2, "NNC", "two different cells"},
+        Broken{"EDITNNC\n 1 1 1 2 1 1 x /\n/\n", 2, "EDITNNC", "a number as item 7, found 'x'"},
+        Broken{"EDITNNCR\n 1 1 1 2 1 1 1 /\nPORO\n 2*1 /\n", 3, "EDITNNCR", "a '/' that ends the records of EDITNNCR"},
+        Broken{"PINCH\n -1 /\n", 2, "PINCH", "a thickness of 0 or more as item 1"},
+        Broken{"PINCH\n 0.1 GAP 1* SOME /\n", 2, "PINCH", "TOPBOT or ALL as item 4, found 'SOME'"},
+        Broken{"MINPV\n -2 /\n", 2, "MINPV", "a pore volume of 0 or more"},
+        Broken{"MINPVV\n 3*1 /\n", 2, "MINPVV", "expected 2 values"},
+        Broken{"MULTX\n 1 -1 /\n", 1, "MULTX", "values of 0 or more, found -1"},
+        Broken{"TRANX\n 1 2 3 /\n", 2, "TRANX", "expected 2 values"},
+        Broken{"MULTIPLY\n TRANX x /\n/\n", 2, "MULTIPLY", "a number as item 2, found 'x'"},
+        Broken{"OPERATE\n SWL 6* SQUARE SWU 1 /\n/\n", 2, "OPERATE", "a function as item 8, found 'SQUARE'"},
+        Broken{"OPERATE\n PERMX 6* MULTX PERMY 2 /\n/\n", 2, "OPERATE", "the array PERMY before it"},
+        Broken{"SWL\n 0 1 /\nOPERATE\n SWU 6* LOG10 SWL /\n/\n", 4, "OPERATE",
+               "a finite result of LOG10, found -inf from 0"},
+        Broken{"SWL\n 2*0.5 /\nOPERATER\n SWU 1 COPY SWL /\n/\n", 4, "OPERATER", "the regions OPERNUM before it"},
+        Broken{"EQUALREG\n SWL 0.1 1 /\n/\n", 2, "EQUALREG", "the regions FLUXNUM before it"},
+        Broken{"EQUALREG\n SWL 0.1 1 Z /\n/\n", 2, "EQUALREG", "F, M or O as item 4, found 'Z'"},
+        Broken{"FLUXNUM\n 1 2 /\nADDREG\n SWL 0.1 /\n/\n", 4, "ADDREG", "the number of a region as item 3"},
+        Broken{"FLUXNUM\n 1 2 /\nCOPYREG\n FLUXNUM SWL 1 /\n/\n", 4, "COPYREG", "two arrays of one kind"},
+        Broken{"GDORIENT\n INC INC INC SIDEWAYS /\n", 2, "GDORIENT", "DOWN or UP as item 4"},
+        Broken{"MAPUNITS\n MILES /\n", 2, "MAPUNITS", "METRES, FEET or CM"},
+        Broken{"GRIDOPTS\n YES many /\n", 2, "GRIDOPTS", "an integer as item 2"},
+        Broken{"NODPPM\n", 1, "NODPPM", "a dual medium (matrix and fractures); write the matrix"},
+        Broken{"CARFIN\n L 1 1 1 1 1 1 2 2 2 /\n", 1, "CARFIN", "take the refinements out"},
+        Broken{"PERMXX\n 1 PORO\n 2*1 /\n", 2, "PERMXX", "a number, found 'PORO'"},
+        Broken{"UNHEARD\n 1 2\nPORO\n 2*1 /\n", 3, "UNHEARD",
+               "a '/' that ends the data of UNHEARD, found the keyword 'PORO'"},
+        Broken{"UNHEARD\nPORO 2*1 /\n", 2, "UNHEARD", "UNHEARD is not known"},
+        Broken{"THPRESFT\n F 1 /\nNTG\n 2*1 /\n", 3, "THPRESFT", "a '/' that ends the records of THPRESFT"}));
 
 }  // namespace
 }  // namespace wellknit

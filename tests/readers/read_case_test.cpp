@@ -166,12 +166,12 @@ MINVALUE
 
 TEST(ReadCase, NotesOnceWhatItDoesNotApply) {
   const Case read =
-      case_of(unit_boxes(1, 1, 1) +
-              "MULTX\n 0.5 /\nEQUALS\n MULTX 2 /\n/\nMULTX\n 0.5 /\nMINPV\n 10 /\nNNC\n 1 1 1 1 1 1 0.1 /\n/\n");
+      case_of(unit_boxes(2, 1, 1) +
+              "MULTX\n 2*0.5 /\nEQUALS\n MULTX 2 /\n/\nMULTX\n 2*0.5 /\nMINPV\n 10 /\nNNC\n 1 1 1 2 1 1 0.1 /\n/\n");
   ASSERT_EQ(read.notes.size(), 3U);
-  EXPECT_EQ(read.notes[0], "case.GRDECL:12: MULTX is not applied yet");
-  EXPECT_EQ(read.notes[1], "case.GRDECL:19: MINPV is not applied yet");
-  EXPECT_EQ(read.notes[2], "case.GRDECL:21: NNC is not applied yet");
+  EXPECT_EQ(read.notes[0], "case.GRDECL:14: MULTX is read, and not applied to transmissibilities yet");
+  EXPECT_EQ(read.notes[1], "case.GRDECL:21: MINPV is read, and not applied to the active cells yet");
+  EXPECT_EQ(read.notes[2], "case.GRDECL:23: NNC is read, and not applied to connections yet");
 }
 
 TEST(ReadCase, PassesOverUnknownKeywordsWithoutMisreadingTheirData) {
@@ -195,8 +195,8 @@ UNHEARD
 }
 
 TEST(ReadCase, PassesOverListsThatOpenWithNamesOfArrays) {
-  const Case read = case_of(unit_boxes(1, 1, 1) +
-                            "EQUALREG\nPORO 0.25 1 M /\nPERMX 100 1 M /\n/\nOPERATE\nPORO 6* 'MULTA' NTG 2 1 /\n/\n");
+  const Case read =
+      case_of(unit_boxes(1, 1, 1) + "UNHEARD\nPORO 0.25 1 M /\nPERMX 100 1 M /\n/\nCOPYBOX\nPORO 6*1 6*1 /\n/\n");
   EXPECT_TRUE(read.grid.porosity.empty());
   EXPECT_EQ(read.notes.size(), 2U);
 }
@@ -208,7 +208,8 @@ TEST(ReadCase, ReadsFurtherGridFilesAfterTheCase) {
   const Case read = parse_case(files, "a/grid", {"poro", "faults"});
   EXPECT_EQ(read.grid.porosity, (Reals{0.1, 0.2}));
   EXPECT_EQ(read.sources.size(), 3U);
-  EXPECT_EQ(read.notes, (std::vector<std::string>{"faults:3: FAULTS is not applied yet"}));
+  EXPECT_TRUE(read.notes.empty());
+  EXPECT_EQ(read.grid.edits.faults.size(), 1U);
 }
 
 TEST(ReadCase, StopsAtEndAndAtEndInc) {
