@@ -14,6 +14,7 @@
 #include <set>
 
 #include "algorithm/assembly.h"
+#include "algorithm/edit_connections.h"
 #include "algorithm/flow_connections.h"
 #include "algorithm/property_transfer.h"
 #include "algorithm/well_connections.h"
@@ -76,7 +77,10 @@ class Builder {
     clock_.lap("properties");
     note_empty_cells(assembly.mesh);
     note_volumes(assembly);
-    connect_cells(grid_, host_, assembly);
+    const HostMultipliers multipliers(grid_);
+    connect_cells(grid_, host_, *locator_, multipliers, assembly);
+    for (std::string& note : edit_connections(grid_, host_, multipliers, assembly))
+      result_.summary.notes.push_back(std::move(note));
     add_wells(assembly);
     clock_.lap("connections");
     for (const TransitionMesh& c : cavities_) result_.summary.cavities.push_back(c.summary);

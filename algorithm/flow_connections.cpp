@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "algorithm/cell_path.h"
 #include "algorithm/host_transmissibility.h"
 #include "algorithm/radial_flow.h"
 
@@ -45,8 +47,15 @@ double linear_half(const Vec3& k, const Vec3& d, const Vec3& area_vector) {
 
 class Connector {
  public:
-  Connector(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly)
-      : grid_(grid), host_(host), assembly_(assembly), mesh_(assembly.mesh), radial_flow_(assembly) {
+  Connector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
+            const HostMultipliers& multipliers, Assembly& assembly)
+      : grid_(grid),
+        host_(host),
+        locator_(locator),
+        multipliers_(multipliers),
+        assembly_(assembly),
+        mesh_(assembly.mesh),
+        radial_flow_(assembly) {
     for (const PlacedTube& t : assembly.tubes) {
       const auto& m = t.tube->real;
       tube_end_.push_back(t.first_cell.value() + static_cast<std::int64_t>(m.segments) * m.sectors * m.rings);
@@ -73,10 +82,11 @@ class Connector {
     const double factor = is_transition ? radial_flow_.factor(a, b, points) : 1.0;
     const double t1 = factor * half(first);
     const double t2 = factor * half(second);
+    const double multiplier = multipliers_.exist() ? multiplier_of(first, second) : 1.0;
     Connections& c = mesh_.connections;
     c.cells.push_back(is_swapped ? std::array{b, a} : std::array{a, b});
     c.face.push_back(face);
-    c.transmissibility.push_back(t1 > 0.0 && t2 > 0.0 ? 1.0 / (1.0 / t1 + 1.0 / t2) : 0.0);
+    c.transmissibility.push_back(t1 > 0.0 && t2 > 0.0 ? multiplier / (1.0 / t1 + 1.0 / t2) : 0.0);
     c.area.push_back(g.area);
     const Vec3 normal = g.area > 0.0 ? Vec3(g.area_vector / g.area) : Vec3::Zero();
     c.normal.push_back(is_swapped ? Vec3(-normal) : normal);
@@ -89,7 +99,42 @@ class Connector {
     c.kind.push_back(info.is_pinch != 0   ? ConnectionKind::pinch_out
                      : info.is_fault != 0 ? ConnectionKind::fault
                                           : ConnectionKind::face);
-    c.multiplier.push_back(1.0);
+    c.multiplier.push_back(multiplier);
+  }
+
+  /// A face of the corner-point grid has its own multiplier. Any other has those of the grid's faces that the line
+  /// from centre to centre crosses; several act in series, so their harmonic mean counts.
+  [[nodiscard]] double multiplier_of(const HalfFace& first, const HalfFace& second) const {
+    if (first.info.role == FaceRole::host) {
+      const auto [one, other] = first.info.host;
+      return one.is_valid() && other.is_valid() ? multipliers_.across(one, other, first.info.axis) : 1.0;
+    }
+    const std::array points{mesh_.cells.center[first.cell], mesh_.cells.center[second.cell]};
+    const double length = (points[1] - points[0]).norm();
+    if (!(length > 0.0)) return 1.0;
+    const auto parts = cells_along(grid_, locator_, {{0.0, length}, {points[0], points[1]}});
+    double count = 0.0;
+    double inverse = 0.0;
+    for (std::size_t n = 0; n + 1 < parts.size(); ++n) {
+      const auto axis = axis_between(parts[n].cell, parts[n + 1].cell);
+      if (!axis) continue;
+      count += 1.0;
+      inverse += 1.0 / multipliers_.across(parts[n].cell, parts[n + 1].cell, *axis);
+    }
+    return count > 0.0 ? count / inverse : 1.0;
+  }
+
+  /// The axis along which two cells are neighbours.
+  [[nodiscard]] std::optional<Axis> axis_between(HostCellId one, HostCellId other) const {
+    const auto a = grid_.ijk(one);
+    const auto b = grid_.ijk(other);
+    std::optional<Axis> axis;
+    for (std::size_t n = 0; n < 3; ++n) {
+      if (a[n] == b[n]) continue;
+      if (axis || std::abs(a[n] - b[n]) != 1) return std::nullopt;
+      axis = static_cast<Axis>(n);
+    }
+    return axis;
   }
 
   [[nodiscard]] double k_angle(const HalfFace& h) const {
@@ -190,6 +235,8 @@ class Connector {
 
   const CornerPointGrid& grid_;
   const HostMesh& host_;
+  const CellLocator& locator_;
+  const HostMultipliers& multipliers_;
   Assembly& assembly_;
   Mesh& mesh_;
   RadialFlow radial_flow_;
@@ -204,8 +251,9 @@ double mean_pressure_radius(double inner, double outer) {
   return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
 }
 
-void connect_cells(const CornerPointGrid& grid, const HostMesh& host, Assembly& assembly) {
-  Connector(grid, host, assembly).connect();
+void connect_cells(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
+                   const HostMultipliers& multipliers, Assembly& assembly) {
+  Connector(grid, host, locator, multipliers, assembly).connect();
 }
 
 double open_length(const Well& well, double from, double to) {

@@ -17,6 +17,7 @@
 
 #include "algorithm/host_pillars.h"
 #include "algorithm/host_strip.h"
+#include "algorithm/source_pore_volume.h"
 #include "model/errors.h"
 
 namespace wellknit {
@@ -92,6 +93,7 @@ void classify(Work& work) {
   work.states.resize(cells);
   work.mesh.exists.resize(cells);
   std::int64_t folded = 0;
+  std::int64_t too_small = 0;
   HostCellId first_folded;
   for (std::size_t c = 0; c < cells; ++c) {
     const HostCellId cell(c);
@@ -100,10 +102,24 @@ void classify(Work& work) {
     const bool active = work.grid.active[c] != 0;
     if (active && thick && volume <= 0.0 && folded++ == 0) first_folded = cell;
     if (!thick || volume < 0.0) volume = 0.0;
-    const bool exists = active && volume > 0.0;
-    work.mesh.exists[cell] = exists ? 1 : 0;
-    work.states[c] = exists ? HostCellState::exists : active ? HostCellState::none : HostCellState::inactive;
   }
+  work.mesh.pore_volume = source_pore_volumes(work.grid, work.mesh.volume);
+  const bool knows_pore_volumes = has_pore_volumes(work.grid);
+  for (std::size_t c = 0; c < cells; ++c) {
+    const HostCellId cell(c);
+    const bool has_volume = work.grid.active[c] != 0 && work.mesh.volume[cell] > 0.0;
+    const bool is_too_small =
+        has_volume && knows_pore_volumes && work.mesh.pore_volume[cell] < least_pore_volume(work.grid, cell);
+    too_small += is_too_small ? 1 : 0;
+    const bool exists = has_volume && !is_too_small;
+    work.mesh.exists[cell] = exists ? 1 : 0;
+    work.states[c] = exists                                      ? HostCellState::exists
+                     : work.grid.active[c] != 0 && !is_too_small ? HostCellState::none
+                                                                 : HostCellState::inactive;
+  }
+  if (too_small > 0)
+    work.mesh.notes.push_back(
+        fmt::format("{} active cells have less pore volume than MINPV and were left out.", too_small));
   if (folded == 0) return;
   const auto [i, j, k] = work.grid.ijk(first_folded);
   work.mesh.notes.push_back(

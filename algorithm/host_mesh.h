@@ -45,7 +45,8 @@ struct HostMesh {
   std::vector<VertexId> corner_vertex;
   HostFaces faces;
   IdVector<HostCellId, double> volume;        ///< m3, positive: eight corners with bilinear faces; all source cells
-  IdVector<HostCellId, std::uint8_t> exists;  ///< 1: active and of positive volume, so a cell of the mesh
+  IdVector<HostCellId, double> pore_volume;   ///< m3; see source_pore_volumes()
+  IdVector<HostCellId, std::uint8_t> exists;  ///< 1: active, of positive volume and not below MINPV: a cell of the mesh
   bool left_handed = false;                   ///< i, j, k make a left-handed triple in (x, y, depth)
   std::vector<std::string> notes;             ///< what was mended or looks wrong, one sentence each
 

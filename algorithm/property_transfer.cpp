@@ -214,7 +214,7 @@ void set_properties(const CornerPointGrid& grid, const HostMesh& host, Assembly&
       s.bulk += v;
       s.porosity += v * porosity;
       s.net_to_gross += v * ntg;
-      s.pore_volume += v * porosity * ntg;
+      s.pore_volume += transfer.fraction[static_cast<std::size_t>(at)] * host.pore_volume[source];
       s.net_bulk += v * ntg;
       s.permeability += v * ntg * k;
       s.gross_permeability += v * k;

@@ -31,9 +31,9 @@ std::vector<Well> example_wells() {
 void read_bytes(benchmark::State& state) {
   std::int64_t bytes = 0;
   for (auto _ : state) {
-    const std::string text = load_file(grid).text;
-    benchmark::DoNotOptimize(std::accumulate(text.begin(), text.end(), 0));
-    bytes += static_cast<std::int64_t>(text.size());
+    const FileContent file = load_file(grid);
+    benchmark::DoNotOptimize(std::accumulate(file.text.begin(), file.text.end(), 0));
+    bytes += static_cast<std::int64_t>(file.text.size());
   }
   state.SetBytesProcessed(bytes);
 }

@@ -51,10 +51,7 @@ struct ValueCount {
 template <class T>
 std::vector<T> read_values(DeckStream& stream, ValueCount count) {
   stream.charge_values(count.most);
-  std::vector<T> values;
-  // A value takes two bytes unless it is repeated, so a file that is too short does not make us reserve all.
-  values.reserve(
-      static_cast<std::size_t>(std::min(count.most, static_cast<std::int64_t>(stream.bytes_left() / 2 + 1))));
+  std::vector<T> values = stream.plain_array<T>(count.most, unset<T>()).value_or(std::vector<T>());
   while (const auto token = stream.next_value()) {
     T value = unset<T>();
     if (!token->value.empty()) {
@@ -88,8 +85,17 @@ void for_each_cell(const CellBox& box, const std::array<std::int64_t, 3>& dimens
 template <class T>
 void read_into(DeckStream& stream, CellArray& array, const CellBox& box, ValueCount count,
                const std::array<std::int64_t, 3>& dimensions) {
-  const std::vector<T> values = read_values<T>(stream, count);
+  std::vector<T> values = read_values<T>(stream, count);
   auto& target = std::get<std::vector<T>>(array.values);
+  const auto whole = static_cast<std::size_t>(dimensions[0] * dimensions[1] * dimensions[2]);
+  if (target.empty() && values.size() == whole) {
+    target = std::move(values);
+    return;
+  }
+  if (target.empty()) {
+    stream.charge_values(static_cast<std::int64_t>(whole));
+    target.assign(whole, unset<T>());
+  }
   std::size_t at = 0;
   for_each_cell(box, dimensions, [&](std::size_t cell) {
     if (at < values.size() && !is_unset(values[at])) target[cell] = values[at];
@@ -148,13 +154,16 @@ void CellArrays::read_array(const CellArrayRule& rule) {
   const CellBox box = box_;
   const std::int64_t count = box.cell_count();
   const std::int64_t layer = count / (box.last[2] - box.first[2] + 1);
-  CellArray* array = find_or_make(stream_.keyword().name, stream_.keyword().line);
-  array->last_set = here();
+  const bool is_real = rule.kind == CellArrayKind::real;
+  CellArray fresh;  // its values may come as they are read
+  if (!is_real) fresh.values = std::vector<std::int32_t>();
+  CellArray& array = arrays.try_emplace(stream_.keyword().name, std::move(fresh)).first->second;
+  array.last_set = here();
   const ValueCount values{rule.only_top_layer ? layer : count, count};
-  if (rule.kind == CellArrayKind::real)
-    read_into<double>(stream_, *array, box, values, dimensions_);
+  if (is_real)
+    read_into<double>(stream_, array, box, values, dimensions_);
   else
-    read_into<std::int32_t>(stream_, *array, box, values, dimensions_);
+    read_into<std::int32_t>(stream_, array, box, values, dimensions_);
 }
 
 std::vector<double> CellArrays::read_reals(std::int64_t count) {

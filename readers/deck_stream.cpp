@@ -31,11 +31,22 @@ void DeckStream::push(FileContent content, const std::string& name) {
   if (content.text.find('\0') != std::string::npos)
     throw ParseError({content.path, 0, keyword_.name},
                      {"a deck or a GRDECL file (text)", "binary data", "write the grid as GRDECL text"});
-  if (known_sources_.insert(content.path).second) sources.push_back({name, sha256_hex(content.text)});
+  if (known_sources_.insert(content.path).second) {
+    sources_.push_back({name, ""});
+    // The digest of a large file takes as long as its numbers: it goes on beside them.
+    static constexpr std::size_t large = std::size_t{1} << 22;
+    const auto policy = content.text.size() >= large ? std::launch::async : std::launch::deferred;
+    if (limits_.hashes_sources) digests_.push_back(std::async(policy, [content] { return sha256_hex(content.text); }));
+  }
   bytes_read_ += static_cast<std::int64_t>(content.text.size());
-  auto held = std::make_unique<FileContent>(std::move(content));
-  const DeckTokens held_tokens(held->text);
-  frames_.push_back({std::move(held), held_tokens});
+  const DeckTokens content_tokens(content.text);
+  frames_.push_back({std::move(content), content_tokens});
+}
+
+std::vector<SourceFile> DeckStream::take_sources() {
+  for (std::size_t n = 0; n < digests_.size(); ++n) sources_[n].sha256 = digests_[n].get();
+  digests_.clear();
+  return std::move(sources_);
 }
 
 std::optional<FileContent> DeckStream::find_include(const std::string& name) {
@@ -58,7 +69,7 @@ void DeckStream::include(std::string name, std::int64_t line) {
     fail(line, {"a file to include", fmt::format("none named {}", quoted_for_message(name)),
                 "names are relative to the including file or to the deck; check the path"});
   for (const Frame& frame : frames_) {
-    if (frame.content->path == content->path)
+    if (frame.content.path == content->path)
       fail(line,
            {"an INCLUDE that ends", fmt::format("{} including itself", quoted_for_message(name)), "remove the loop"});
   }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "model/errors.h"
 #include "readers/deck_tokens.h"
 #include "readers/file_content.h"
+#include "readers/number_array.h"
 
 namespace wellknit {
 
@@ -29,6 +31,7 @@ struct DeckLimits {
   std::size_t include_depth = 32;
   std::size_t include_count = 10'000;
   std::size_t record_items = 10'000;
+  bool hashes_sources = true;  ///< false: SourceFile::sha256 stays empty
 };
 
 struct DeckKeyword {
@@ -95,6 +98,15 @@ class DeckStream {
   DeckRecord next_record(std::size_t most_items);
   /// Passes over a record of any words, names of keywords among them.
   void skip_record();
+  /// The numbers before the '/' of the current array when they are plain ones, at most this many; what follows is then
+  /// the '/'. Nothing, and nothing read, otherwise.
+  template <class T>
+  std::optional<std::vector<T>> plain_array(std::int64_t most, T unset) {
+    const std::string_view text = tokens().array_text();
+    auto values = parse_number_array<T>(text, most, unset);
+    if (values) tokens().skip_array_text(text);
+    return values;
+  }
   /// One value of an array, or nothing at its '/'.
   std::optional<RepeatedToken> next_value();
 
@@ -123,19 +135,21 @@ class DeckStream {
   /// Throws ParseError when the work asked for is out of proportion.
   void charge_steps(std::int64_t count);
 
-  std::vector<SourceFile> sources;
+  /// The files read, in their order; waits until their digests are there.
+  std::vector<SourceFile> take_sources();
+
   std::vector<std::string> notes;
 
  private:
   struct Frame {
-    std::unique_ptr<FileContent> content;
+    FileContent content;
     DeckTokens tokens;
   };
 
   [[nodiscard]] DeckTokens& tokens() { return frames_.back().tokens; }
   void push(FileContent content, const std::string& name);
   [[nodiscard]] std::optional<FileContent> find_include(const std::string& name);
-  [[nodiscard]] std::string current_file() const { return frames_.empty() ? main_file_ : frames_.back().content->path; }
+  [[nodiscard]] std::string current_file() const { return frames_.empty() ? main_file_ : frames_.back().content.path; }
   DeckToken next_data_token();
   void refuse_keyword_in_list(const DeckToken& token);
   void append_items(DeckRecord& record, const DeckToken& token, std::size_t most_items) const;
@@ -146,6 +160,8 @@ class DeckStream {
   DeckLimits limits_;
   std::vector<Frame> frames_;
   std::string main_file_;
+  std::vector<SourceFile> sources_;
+  std::vector<std::future<std::string>> digests_;  ///< of sources_
   std::set<std::string> known_sources_;
   std::set<std::string> noted_;
   DeckKeyword keyword_;

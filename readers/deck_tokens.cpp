@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "readers/number_array.h"
 #include "readers/text.h"
 
 namespace wellknit {
@@ -126,6 +127,20 @@ DeckToken DeckTokens::next_path() {
     next();
   }
   return token;
+}
+
+std::string_view DeckTokens::array_text() const {
+  const std::string_view rest = text_.substr(at_);
+  const std::size_t end = find_array_end(rest);
+  return end == std::string_view::npos ? std::string_view() : rest.substr(0, end + 1);
+}
+
+void DeckTokens::skip_array_text(std::string_view array) {
+  at_ += array.size() - 1;
+  line_ += count_line_ends(array);
+  const std::size_t last_end = array.find_last_of("\n\r");
+  if (last_end != std::string_view::npos) line_start_ = at_ - (array.size() - 1) + last_end + 1;
+  token_on_line_ = true;
 }
 
 std::string_view DeckTokens::rest_of_line() const {

@@ -41,6 +41,11 @@ class DeckTokens {
   /// A file name: quoted, or up to a blank with any '/' inside it. Takes the closing '/' too when it is there.
   DeckToken next_path();
 
+  /// From here up to and with the '/' that ends the data; empty when there is none.
+  [[nodiscard]] std::string_view array_text() const;
+  /// To the '/' at the end of that text.
+  void skip_array_text(std::string_view array);
+
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
   [[nodiscard]] std::int64_t line() const { return line_; }
 

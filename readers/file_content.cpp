@@ -3,11 +3,14 @@
 
 #include "readers/file_content.h"
 
+#include <fcntl.h>
 #include <openssl/evp.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -39,16 +42,35 @@ std::optional<fs::path> entry_ignoring_case(const fs::path& folder, const std::s
   throw ParseError({path, 0, ""}, {expected, found, advice});
 }
 
-std::string read_bytes(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) fail(path, "a readable file", "one that cannot be opened", "check its permissions");
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  std::string text(error ? 0 : size, '\0');
-  const std::size_t got = std::fread(text.data(), 1, text.size(), file.get());
-  if (error || std::ferror(file.get()) != 0 || got != text.size())
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(const std::string& path) : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~FileDescriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  FileDescriptor(FileDescriptor&&) = delete;
+  FileDescriptor& operator=(FileDescriptor&&) = delete;
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+FileContent map_file(const std::string& path) {
+  const FileDescriptor file(path);
+  if (file.number() < 0) fail(path, "a readable file", "one that cannot be opened", "check its permissions");
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0)
     fail(path, "a readable file", "an error of the disk while reading it", "copy the file and try again");
-  return text;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size == 0) return {path, {}, nullptr};
+  void* const begin = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
+  if (begin == MAP_FAILED)
+    fail(path, "a readable file", "one that cannot be mapped into memory", "copy the file and try again");
+  std::shared_ptr<const void> owner(begin, [size](void* mapped) { ::munmap(mapped, size); });
+  return {path, {static_cast<const char*>(begin), size}, std::move(owner)};
 }
 
 }  // namespace
@@ -77,13 +99,19 @@ std::optional<FileContent> DiskFiles::load(const std::string& path) {
   if (fs::is_directory(*found, error)) fail(path, "a file", "a folder", "name a file inside it");
   if (!fs::is_regular_file(*found, error))
     fail(path, "a regular file", "a device or a pipe", "save its content as a file first");
-  return FileContent{*found, read_bytes(*found)};
+  return map_file(*found);
 }
 
 std::optional<FileContent> MemoryFiles::load(const std::string& path) {
   const auto found = files_.find(path);
   if (found == files_.end()) return std::nullopt;
-  return FileContent{found->first, found->second};
+  return content_of(found->first, found->second);
+}
+
+FileContent content_of(std::string path, std::string text) {
+  auto owner = std::make_shared<const std::string>(std::move(text));
+  const std::string_view view = *owner;
+  return {std::move(path), view, std::move(owner)};
 }
 
 FileContent load_file(const std::string& path) {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// Whole files in memory, from the disk or, for tests and fuzzers, from a map.
+/// Whole files, mapped from the disk or, for tests and fuzzers, from memory.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,9 +13,13 @@
 namespace wellknit {
 
 struct FileContent {
-  std::string path;  ///< as it was found; may differ in case from the name that was asked for
-  std::string text;
+  std::string path;       ///< as it was found; may differ in case from the name that was asked for
+  std::string_view text;  ///< lives as long as `owner`
+  std::shared_ptr<const void> owner;
 };
+
+/// The content of a text in memory.
+FileContent content_of(std::string path, std::string text);
 
 /// Where the files of one run come from.
 class FileStore {
@@ -44,7 +49,8 @@ class MemoryFiles final : public FileStore {
   std::map<std::string, std::string> files_;
 };
 
-/// Reads a file from the disk. Throws ParseError when it is missing, a folder, or unreadable.
+/// Maps a file of the disk; it must not become shorter meanwhile. Throws ParseError when it is missing, a folder, or
+/// unreadable.
 FileContent load_file(const std::string& path);
 
 /// The path as it stands on the disk: itself, else the first match without regard to case, else nothing.

@@ -284,7 +284,7 @@ Case CaseReader::finish() {
   Case out;
   out.grid = grid_.finish();
   out.deck_wells = wells_.finish(out.grid);
-  out.sources = std::move(stream_.sources);
+  out.sources = stream_.take_sources();
   out.notes = std::move(stream_.notes);
   return out;
 }

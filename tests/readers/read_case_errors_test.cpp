@@ -33,7 +33,7 @@ void expect_error(const std::string& text, std::int64_t line, const std::string&
 TEST(CaseErrors, GeometryEndsOnLineEleven) { EXPECT_EQ(std::count(grid.begin(), grid.end(), '\n'), next_line - 1); }
 
 TEST(CaseErrors, EveryTruncationIsAnErrorOrAWholeGrid) {
-  const std::string text = load_file(std::string(WELLKNIT_TESTDATA) + "/grdecl/box.GRDECL").text;
+  const std::string text(load_file(std::string(WELLKNIT_TESTDATA) + "/grdecl/box.GRDECL").text);
   const std::size_t geometry_ends = text.find("PORO") - 2;
   for (std::size_t size = 0; size < text.size(); ++size) {
     MemoryFiles files({{"cut", text.substr(0, size)}});

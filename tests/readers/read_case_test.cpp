@@ -60,7 +60,7 @@ TEST(ReadCase, ListsTheFileWithItsHash) {
 }
 
 TEST(ReadCase, TakesAnyLineEnd) {
-  const std::string text = load_file(box_file).text;
+  const std::string text(load_file(box_file).text);
   std::string windows;
   std::string old_mac = text;
   for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -72,7 +72,7 @@ TEST(ReadCase, TakesAnyLineEnd) {
 }
 
 TEST(ReadCase, ReadsInSmallLettersWithTabsAndAccents) {
-  std::string text = load_file(box_file).text;
+  std::string text(load_file(box_file).text);
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   std::replace(text.begin(), text.end(), ' ', '\t');

@@ -71,7 +71,7 @@ TEST(ReadTrajectory, ReadsRmsWellsWithPerforations) {
 
 TEST(ReadTrajectory, TakesAnyLineEnd) {
   for (const char* name : {"curved.csv", "two.dev", "logged.rmswell"}) {
-    const std::string text = load_file(folder + name).text;
+    const std::string text(load_file(folder + name).text);
     std::string windows;
     std::string old_mac = text;
     for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -85,7 +85,7 @@ TEST(ReadTrajectory, TakesAnyLineEnd) {
 
 TEST(ReadTrajectory, EveryTruncationIsAnErrorOrAValidWell) {
   for (const char* name : {"curved.csv", "two.dev", "logged.rmswell"}) {
-    const std::string text = load_file(folder + name).text;
+    const std::string text(load_file(folder + name).text);
     for (std::size_t size = 0; size < text.size(); ++size) {
       try {
         for (const Well& well : parse_trajectory(text.substr(0, size), name).wells)

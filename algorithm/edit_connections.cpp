@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "algorithm/edit_connections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "algorithm/array_edits.h"
+#include "algorithm/pinch_connections.h"
+
+namespace wellknit {
+
+namespace {
+
+using SourcePair = std::pair<HostCellId, HostCellId>;  ///< the smaller first
+
+SourcePair ordered(HostCellId a, HostCellId b) { return a < b ? SourcePair{a, b} : SourcePair{b, a}; }
+
+class ConnectionEditor {
+ public:
+  ConnectionEditor(const CornerPointGrid& grid, const HostMesh& host, const HostMultipliers& multipliers,
+                   Assembly& assembly)
+      : grid_(grid), host_(host), multipliers_(multipliers), assembly_(assembly), mesh_(assembly.mesh) {}
+
+  std::vector<std::string> edit() {
+    edit_arrays();
+    add_pinches();
+    find_pairs();
+    multiply_pairs();
+    add_non_neighbours();
+    replace_pairs();
+    return std::move(notes_);
+  }
+
+ private:
+  /// TRANX, TRANY, TRANZ of the EDIT section: connections between neighbours along i, j, k, by the lower cell.
+  void edit_arrays() {
+    static constexpr std::array arrays{ComputedArray::transmissibility_x, ComputedArray::transmissibility_y,
+                                       ComputedArray::transmissibility_z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const ArrayEdits steps(grid_, arrays[axis]);
+      if (!steps.exist()) continue;
+      std::int64_t kept = 0;
+      Connections& c = mesh_.connections;
+      for (std::size_t n = 0; n < c.size(); ++n) {
+        const ConnectionId connection(n);
+        if (!c.face[connection].is_valid()) continue;
+        const FaceInfo& info = assembly_.face_info[c.face[connection]];
+        if (info.role != FaceRole::host || static_cast<std::size_t>(info.axis) != axis) continue;
+        const auto [low, high] = ordered(info.host[0], info.host[1]);
+        if (!are_neighbours(low, high, axis)) continue;
+        double& t = c.transmissibility[connection];
+        if (is_kept(low) && is_kept(high))
+          t = std::max(0.0, steps.applied(low, t));
+        else if (const auto factor = steps.factor(low))
+          t *= *factor;
+        else
+          ++kept;
+      }
+      if (kept > 0)
+        notes_.push_back(
+            fmt::format("{} connections at the edge of the wells' meshes keep their computed "
+                        "transmissibility: {} of EDIT belongs to cells that were replaced",
+                        kept, keyword_of(arrays[axis])));
+      note_inside(steps, arrays[axis]);
+    }
+  }
+
+  [[nodiscard]] bool are_neighbours(HostCellId low, HostCellId high, std::size_t axis) const {
+    const auto a = grid_.ijk(low);
+    const auto b = grid_.ijk(high);
+    for (std::size_t n = 0; n < 3; ++n)
+      if (b[n] - a[n] != (n == axis ? 1 : 0)) return false;
+    return true;
+  }
+
+  [[nodiscard]] bool is_kept(HostCellId cell) const { return assembly_.cell_of[cell].is_valid(); }
+  [[nodiscard]] bool is_replaced(HostCellId cell) const { return host_.exists[cell] != 0 && !is_kept(cell); }
+
+  void note_inside(const ArrayEdits& steps, ComputedArray array) {
+    std::int64_t count = 0;
+    for (std::int64_t c = 0; c < grid_.cell_count(); ++c)
+      if (is_replaced(HostCellId(c)) && steps.factor(HostCellId(c)) != 1.0) ++count;
+    if (count > 0)
+      notes_.push_back(fmt::format("{} of EDIT is not applied inside the wells' meshes: {} replaced cells have it",
+                                   keyword_of(array), count));
+  }
+
+  /// The connections, by source cells, of the pairs that some keyword names.
+  void find_pairs() {
+    const ConnectionEdits& edits = grid_.edits;
+    for (const auto* list :
+         {&edits.non_neighbours, &edits.non_neighbour_multipliers, &edits.non_neighbour_transmissibilities})
+      for (const CellPairValue& entry : *list) connection_of_[ordered(entry.first, entry.second)];
+    if (connection_of_.empty()) return;
+    const Connections& c = mesh_.connections;
+    for (std::size_t n = 0; n < c.size(); ++n) {
+      const auto [a, b] = c.cells[ConnectionId(n)];
+      const HostCellId one = mesh_.cells.source_cell[a];
+      const HostCellId other = mesh_.cells.source_cell[b];
+      if (!one.is_valid() || !other.is_valid()) continue;
+      if (const auto found = connection_of_.find(ordered(one, other)); found != connection_of_.end())
+        found->second = ConnectionId(n);
+    }
+  }
+
+  void multiply_pairs() {
+    std::int64_t missing = 0;
+    for (const CellPairValue& entry : grid_.edits.non_neighbour_multipliers) {
+      const ConnectionId found = connection_of_[ordered(entry.first, entry.second)];
+      if (found.is_valid())
+        mesh_.connections.transmissibility[found] *= entry.value;
+      else
+        ++missing;
+    }
+    if (missing > 0)
+      notes_.push_back(fmt::format("{} records of EDITNNC name cells that the grid does not connect", missing));
+  }
+
+  void replace_pairs() {
+    std::map<SourcePair, double> last;
+    for (const CellPairValue& entry : grid_.edits.non_neighbour_transmissibilities)
+      last[ordered(entry.first, entry.second)] = entry.value;
+    std::int64_t missing = 0;
+    for (const auto& [pair, value] : last) {
+      const ConnectionId found = connection_of_[pair];
+      if (found.is_valid())
+        mesh_.connections.transmissibility[found] = value;
+      else
+        ++missing;
+    }
+    if (missing > 0)
+      notes_.push_back(fmt::format("{} records of EDITNNCR name cells that the grid does not connect", missing));
+  }
+
+  void add_pinches() {
+    std::int64_t beside_wells = 0;
+    for (const PinchConnection& pinch : pinch_connections(grid_, host_, multipliers_)) {
+      if (is_kept(pinch.upper) && is_kept(pinch.lower))
+        add(assembly_.cell_of[pinch.upper], assembly_.cell_of[pinch.lower], pinch.transmissibility, pinch.multiplier,
+            ConnectionKind::pinch_out);
+      else
+        ++beside_wells;
+    }
+    if (beside_wells > 0)
+      notes_.push_back(
+          fmt::format("{} connections of PINCH lead to cells that the wells' meshes replace; they are "
+                      "left out",
+                      beside_wells));
+  }
+
+  void add_non_neighbours() {
+    std::map<SourcePair, double> sums;
+    std::int64_t inactive = 0;
+    for (const CellPairValue& entry : grid_.edits.non_neighbours) {
+      if (host_.exists[entry.first] == 0 || host_.exists[entry.second] == 0)
+        ++inactive;
+      else
+        sums[ordered(entry.first, entry.second)] += entry.value;
+    }
+    std::map<std::pair<CellId, CellId>, double> fresh;
+    for (const auto& [pair, value] : sums) {
+      if (ConnectionId& found = connection_of_[pair]; found.is_valid())
+        mesh_.connections.transmissibility[found] += value;
+      else
+        share(pair, value, fresh);
+    }
+    add_to_present(fresh);
+    for (const auto& [cells, value] : fresh) {
+      const ConnectionId added = add(cells.first, cells.second, value, 1.0, ConnectionKind::deck_nnc);
+      const HostCellId one = mesh_.cells.source_cell[cells.first];
+      const HostCellId other = mesh_.cells.source_cell[cells.second];
+      if (one.is_valid() && other.is_valid()) connection_of_[ordered(one, other)] = added;
+    }
+    if (inactive > 0)
+      notes_.push_back(fmt::format("{} records of NNC name an inactive cell and are left out", inactive));
+  }
+
+  /// Both cells give the connection to the cells of the mesh that hold their volume, by their shares.
+  void share(const SourcePair& pair, double value, std::map<std::pair<CellId, CellId>, double>& fresh) const {
+    const Transfer& transfer = mesh_.transfer;
+    const auto range = [&](HostCellId cell) {
+      return std::pair{static_cast<std::size_t>(transfer.start[cell.index()]),
+                       static_cast<std::size_t>(transfer.start[cell.index() + 1])};
+    };
+    const auto [a0, a1] = range(pair.first);
+    const auto [b0, b1] = range(pair.second);
+    for (std::size_t a = a0; a < a1; ++a)
+      for (std::size_t b = b0; b < b1; ++b) {
+        const CellId one = std::min(transfer.cell[a], transfer.cell[b]);
+        const CellId other = std::max(transfer.cell[a], transfer.cell[b]);
+        if (one != other) fresh[{one, other}] += value * transfer.fraction[a] * transfer.fraction[b];
+      }
+  }
+
+  /// Made cells that a face connects already take the value there.
+  void add_to_present(std::map<std::pair<CellId, CellId>, double>& fresh) {
+    Connections& c = mesh_.connections;
+    for (std::size_t n = 0; n < c.size() && !fresh.empty(); ++n) {
+      const auto [a, b] = c.cells[ConnectionId(n)];
+      const auto found = fresh.find({a, b});
+      if (found == fresh.end()) continue;
+      c.transmissibility[ConnectionId(n)] += found->second;
+      fresh.erase(found);
+    }
+  }
+
+  /// A connection without a face, from centre to centre.
+  ConnectionId add(CellId a, CellId b, double transmissibility, double multiplier, ConnectionKind kind) {
+    Connections& c = mesh_.connections;
+    if (b < a) std::swap(a, b);
+    const Vec3 between = mesh_.cells.center[b] - mesh_.cells.center[a];
+    const double length = between.norm();
+    c.face.push_back(FaceId{});
+    c.transmissibility.push_back(transmissibility);
+    c.area.push_back(0.0);
+    c.normal.push_back(length > 0.0 ? Vec3(between / length) : Vec3::Zero());
+    c.half_distance.push_back({0.5 * length, 0.5 * length});
+    c.non_orthogonality.push_back(0.0);
+    c.k_non_orthogonality.push_back(0.0);
+    c.planarity.push_back(0.0);
+    c.kind.push_back(kind);
+    c.multiplier.push_back(multiplier);
+    return c.cells.push_back({a, b});
+  }
+
+  const CornerPointGrid& grid_;
+  const HostMesh& host_;
+  const HostMultipliers& multipliers_;
+  Assembly& assembly_;
+  Mesh& mesh_;
+  std::map<SourcePair, ConnectionId> connection_of_;  ///< of the pairs that the deck names
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+std::vector<std::string> edit_connections(const CornerPointGrid& grid, const HostMesh& host,
+                                          const HostMultipliers& multipliers, Assembly& assembly) {
+  return ConnectionEditor(grid, host, multipliers, assembly).edit();
+}
+
+}  // namespace wellknit

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 The wellknit authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cells, pore volumes and connections of a deck's host mesh against what OPM Flow writes in its INIT and EGRID.
+
+    compare_with_flow.py WELLKNIT CHECK_MESH|- [--random FIRST COUNT] [DECK…]
+
+Exits 77 without flow. Prints one line a deck; exits 1 where a number differs by more than single precision allows.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+from eclipse_output import arrays
+from make_model import Deck
+
+M3_PER_UNIT = {1: 1e-3 / (86400 * 1e5), 2: 1e-3 * 0.158987294928 / (86400 * 6894.757293168361),
+               3: 1e-3 * 1e-6 / (3600 * 101325)}
+M3_PER_RESERVOIR_UNIT = {1: 1.0, 2: 0.158987294928, 3: 1e-6}
+TOLERANCE = 1e-5
+
+
+def flow_result(deck, folder):
+    """Active cells, pore volume (m3), and {(a, b): transmissibility in m3} of a deck, from flow's own files."""
+    command = ["flow", "--enable-dry-run=true", f"--output-dir={folder}", "--parsing-strictness=low", str(deck)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    stem = pathlib.Path(folder) / deck.stem.upper()
+    if not stem.with_suffix(".INIT").exists():
+        tail = [line for line in done.stdout.splitlines() if "rror" in line][-3:]
+        raise RuntimeError("flow failed: " + " | ".join(tail or done.stderr.splitlines()[-3:]))
+    init, grid = arrays(stem.with_suffix(".INIT")), arrays(stem.with_suffix(".EGRID"))
+    nx, ny, nz = (int(n) for n in grid["GRIDHEAD"][1:4])
+    flags = grid.get("ACTNUM")
+    active = np.arange(nx * ny * nz) if flags is None else np.nonzero(flags)[0]
+    is_active = np.zeros(nx * ny * nz, bool)
+    is_active[active] = True
+    units = int(init["INTEHEAD"][2])
+    pairs = {}
+
+    def add(a, b, value):
+        if value > 0:
+            key = (min(a, b), max(a, b))
+            pairs[key] = pairs.get(key, 0.0) + float(value) * M3_PER_UNIT[units]
+
+    for step, name in ((1, "TRANX"), (nx, "TRANY"), (nx * ny, "TRANZ")):
+        for c, value in zip(active, init[name]):
+            other = c + step
+            # Flow writes a connection across a pinch-out in the place of the one to the next layer.
+            while step == nx * ny and other < nx * ny * nz and not is_active[other]:
+                other += step
+            add(int(c), int(other), value)
+    if "TRANNNC" in init:
+        for a, b, value in zip(grid["NNC1"], grid["NNC2"], init["TRANNNC"]):
+            add(int(a) - 1, int(b) - 1, value)
+    return active, init["PORV"][active].astype(float) * M3_PER_RESERVOIR_UNIT[units], pairs
+
+
+def our_result(path):
+    with h5py.File(path) as mesh:
+        source = mesh["cells/source_cell"][()]
+        order = np.argsort(source)
+        pairs = {}
+        for (a, b), value in zip(source[mesh["connections/cells"][()]], mesh["connections/transmissibility"][()]):
+            if value > 0:
+                key = (int(min(a, b)), int(max(a, b)))
+                pairs[key] = pairs.get(key, 0.0) + float(value)
+        return source[order], mesh["cells/pore_volume"][()][order], pairs
+
+
+def compare(wellknit, checker, deck, folder):
+    """Faults found, as texts; and a line of figures."""
+    out = pathlib.Path(folder) / "host.h5"
+    done = subprocess.run([wellknit, "build", str(deck), "-o", str(out), "--overwrite", "--quiet"], capture_output=True,
+                          text=True, check=False)
+    if done.returncode != 0:
+        return [f"wellknit failed: {done.stderr.strip()}"], ""
+    active, porv, theirs = flow_result(deck, folder)
+    source, pore_volume, ours = our_result(out)
+    keep = pore_volume > 0  # flow leaves out cells without pores
+    faults = []
+    if not np.array_equal(source[keep], active):
+        extra, missing = np.setdiff1d(source[keep], active), np.setdiff1d(active, source[keep])
+        return [f"cells: {len(extra)} only here {extra[:5]}, {len(missing)} only in flow {missing[:5]}"], ""
+    worst_porv = float(np.max(np.abs(pore_volume[keep] / porv - 1))) if len(porv) else 0.0
+    if worst_porv > TOLERANCE:
+        faults.append(f"pore volumes differ by {worst_porv:.2e}")
+    largest = max(theirs.values(), default=1.0)
+    both = theirs.keys() & ours.keys()
+    worst = max((abs(ours[p] / theirs[p] - 1) for p in both), default=0.0)
+    alone_here = [p for p in ours.keys() - theirs.keys() if ours[p] > 1e-6 * largest]
+    alone_there = [p for p in theirs.keys() - ours.keys() if theirs[p] > 1e-6 * largest]
+    if worst > TOLERANCE:
+        pair = max(both, key=lambda p: abs(ours[p] / theirs[p] - 1))
+        faults.append(f"transmissibilities differ by {worst:.2e}, at {pair}: {ours[pair]:.6g} here, {theirs[pair]:.6g} there")
+    if alone_here or alone_there:
+        faults.append(f"connections: {len(alone_here)} only here {alone_here[:3]}, {len(alone_there)} only in flow {alone_there[:3]}")
+    if checker != "-":
+        checked = subprocess.run([sys.executable, checker, str(out)], capture_output=True, text=True, check=False)
+        faults += [line for line in checked.stdout.splitlines() if "FAIL" in line]
+    return faults, f"{len(active)} cells, {len(theirs)} connections, T {worst:.1e}, PORV {worst_porv:.1e}"
+
+
+def main():
+    arguments = sys.argv[1:]
+    wellknit, checker = arguments[:2]
+    decks = arguments[2:]
+    if shutil.which("flow") is None:
+        print("flow is not installed: skipped")
+        return 77
+    if checker != "-" and not os.path.exists(checker):
+        checker = "-"
+    failed = 0
+    with tempfile.TemporaryDirectory() as scratch:
+        if decks[:1] == ["--random"]:
+            first, count = int(decks[1]), int(decks[2])
+            decks = decks[3:]
+            for seed in range(first, first + count):
+                path = pathlib.Path(scratch) / f"SEED{seed}.DATA"
+                Deck(seed).write(path)
+                decks.append(str(path))
+        for deck in decks:
+            if not os.path.exists(deck):
+                print(f"{deck}: not there, skipped")
+                continue
+            with tempfile.TemporaryDirectory() as folder:
+                faults, figures = compare(wellknit, checker, pathlib.Path(deck), folder)
+            name = pathlib.Path(deck).stem
+            failed += 1 if faults else 0
+            print(f"{name}: " + ("; ".join(faults) if faults else figures), flush=True)
+    print(f"{len(decks)} decks, {failed} differ")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
