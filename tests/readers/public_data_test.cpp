@@ -98,7 +98,7 @@ TEST_F(PublicData, CutFilesEndInAnErrorOrAGrid) {
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "odd"))
     if (entry.path().extension() == ".grdecl") paths.push_back(entry.path());
   for (const auto& path : paths) {
-    const std::string text = load_file(path.string()).text;
+    const std::string text(load_file(path.string()).text);
     for (std::size_t n = 0; n < 200; ++n) {
       MemoryFiles files({{"case", text.substr(0, text.size() * n / 200)}});
       try {
