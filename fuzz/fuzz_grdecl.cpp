@@ -36,6 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   limits.free_values = 100'000;
   limits.free_steps = 1'000'000;
   limits.include_count = 20;
+  limits.hashes_sources = false;
   try {
     const wellknit::Case read = wellknit::parse_case(files, "case", {}, limits);
     wellknit::validate(read.grid);
