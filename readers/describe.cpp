@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "model/units.h"
+#include "readers/cell_arrays.h"
+#include "readers/file_content.h"
 #include "readers/formats.h"
 #include "readers/read_case.h"
 #include "readers/read_mesh.h"
@@ -134,6 +136,47 @@ WellDescription describe(const Well& well) {
   return out;
 }
 
+namespace {
+
+/// A file of properties alone: its arrays as they stand there.
+GridDescription describe(const GridPart& part) {
+  GridDescription out;
+  out.has_geometry = false;
+  out.dimensions = part.dimensions.value_or(std::array<std::int64_t, 3>{});
+  out.units = part.units ? std::string(name_of(*part.units)) : "not given";
+  out.has_map_axes = part.mapaxes.has_value();
+  for (const GridPartArray& array : part.arrays) {
+    PropertyRange range{array.name, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                        ""};
+    if (array.name == "PORO" || array.name == "NTG") range.unit = "1";
+    if (array.name.substr(0, 4) == "PERM") range.unit = "mD";
+    const auto add = [&](auto value) {
+      if (value == unset_integer || std::isnan(static_cast<double>(value))) return;
+      range.least = std::min(range.least, static_cast<double>(value));
+      range.most = std::max(range.most, static_cast<double>(value));
+    };
+    std::visit([&](const auto& values) { std::for_each(values.begin(), values.end(), add); }, array.values);
+    if (range.least <= range.most) out.properties.push_back(std::move(range));
+  }
+  std::sort(out.properties.begin(), out.properties.end(),
+            [](const PropertyRange& a, const PropertyRange& b) { return a.name < b.name; });
+  return out;
+}
+
+/// A file that holds no geometry of its own, and has none beside it in the run: described all the same.
+bool describe_properties(const std::string& path, const ReaderFormat& format, FileDescription& out) {
+  if (format.read_grid == nullptr) return false;
+  const FileContent content = load_file(path);
+  GridPart part = format.read_grid(content.text, content.path);
+  if (!part.coord.empty() || !part.zcorn.empty()) return false;
+  out.grid = describe(part);
+  out.sources.push_back({path, sha256_hex(content.text)});
+  for (const std::string& note : part.notes) out.notes.push_back(path + ": " + note);
+  return true;
+}
+
+}  // namespace
+
 FileDescription describe_file(const std::string& path) {
   const ReaderFormat& format = recognise_file(path);
   FileDescription out;
@@ -141,6 +184,7 @@ FileDescription describe_file(const std::string& path) {
   out.format = std::string(format.name);
   switch (format.kind) {
     case FormatKind::grid: {
+      if (describe_properties(path, format, out)) break;
       Case read = read_case(path);
       out.grid = describe(read.grid);
       for (const Well& well : read.deck_wells) out.wells.push_back(describe(well));

@@ -27,6 +27,7 @@ struct PropertyRange {
 
 struct GridDescription {
   std::array<std::int64_t, 3> dimensions{};
+  bool has_geometry = true;  ///< false: a file of properties alone; what follows of cells and volumes is not known
   std::int64_t active_cells = 0;
   std::int64_t inverted_cells = 0;    ///< active, with a volume of the other sign than the whole
   bool is_right_handed = true;        ///< i, j, k as stored

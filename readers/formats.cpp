@@ -10,7 +10,13 @@
 #include "model/errors.h"
 #include "readers/deck_keywords.h"
 #include "readers/deck_tokens.h"
+#include "readers/ecl_records.h"
 #include "readers/file_content.h"
+#include "readers/read_binary_grdecl.h"
+#include "readers/read_egrid.h"
+#include "readers/read_grid_file.h"
+#include "readers/read_init.h"
+#include "readers/read_roff.h"
 #include "readers/read_trajectory_csv.h"
 #include "readers/read_trajectory_dev.h"
 #include "readers/read_trajectory_rms.h"
@@ -24,24 +30,8 @@ bool starts_with(std::string_view text, std::string_view start) { return text.su
 
 bool is_hdf5(std::string_view text) { return starts_with(text, "\x89HDF\r\n\x1a\n"); }
 bool is_zip(std::string_view text) { return starts_with(text, "PK\x03\x04"); }
-bool is_roff(std::string_view text) { return starts_with(text, "roff-bin") || starts_with(text, "roff-asc"); }
-
-/// The first header of an Eclipse output file: a record of 16 bytes, its length in big-endian before it.
-bool begins_with_record(std::string_view text, std::initializer_list<std::string_view> names) {
-  static constexpr std::string_view length("\0\0\0\x10", 4);
-  if (!starts_with(text, length) || text.size() < 12) return false;
-  const std::string_view name = trimmed(text.substr(4, 8));
-  return names.size() == 0 || std::find(names.begin(), names.end(), name) != names.end();
-}
-bool is_egrid(std::string_view text) { return begins_with_record(text, {"FILEHEAD"}); }
-bool is_eclipse_output(std::string_view text) {
-  return begins_with_record(text, {"INTEHEAD", "SEQNUM", "DIMENS", "DIMENSIO"});
-}
-bool is_binary_grdecl(std::string_view text) { return begins_with_record(text, {}); }
-bool is_formatted_output(std::string_view text) {
-  const std::string_view start = trimmed(text.substr(0, 16));
-  return starts_with(start, "'FILEHEAD'") || starts_with(start, "'INTEHEAD'") || starts_with(start, "'DIMENS");
-}
+bool is_restart(std::string_view text) { return begins_with_ecl_header(text, {"SEQNUM"}); }
+bool is_summary(std::string_view text) { return begins_with_ecl_header(text, {"SEQHDR", "RESTART"}); }
 
 bool is_petrel_trace(std::string_view text) {
   return upper_case(text.substr(0, 200)).find("WELL TRACE FROM PETREL") != std::string::npos;
@@ -76,16 +66,20 @@ std::vector<ReaderFormat> make_table() {
   return {
       {"wellknit mesh", K::mesh, {".h5"}, "HDF5 signature",
        "hybrid mesh with connections and wells", read, binary, is_hdf5},
-      {"EGRID", K::grid, {".egrid"}, "record FILEHEAD",
-       "Eclipse binary grid", unread, binary, is_egrid},
-      {"Eclipse output", K::grid, {".grid", ".init", ".unrst"}, "record INTEHEAD, SEQNUM or DIMENS",
-       "Eclipse binary grid, properties or results", unread, binary, is_eclipse_output},
+      {"EGRID", K::grid, {".egrid", ".fegrid"}, "record FILEHEAD",
+       "Eclipse grid, binary or formatted", read, binary, looks_like_egrid, nullptr, parse_egrid},
+      {"Eclipse GRID", K::grid, {".grid", ".fgrid"}, "record DIMENS",
+       "older Eclipse grid, corners of each cell", read, binary, looks_like_grid_file, nullptr, parse_grid_file},
+      {"Eclipse INIT", K::grid, {".init", ".finit"}, "record INTEHEAD",
+       "properties that a simulator wrote; beside an EGRID", read, binary, looks_like_init, nullptr, parse_init},
+      {"Eclipse restart", K::grid, {".unrst"}, "record SEQNUM",
+       "results of a simulator", unread, binary, is_restart},
+      {"Eclipse summary", K::grid, {".unsmry", ".smspec"}, "record SEQHDR or RESTART",
+       "curves of a simulator", unread, binary, is_summary},
       {"binary GRDECL", K::grid, {".bgrdecl"}, "record with a GRDECL keyword",
-       "GRDECL keywords in binary records", unread, binary, is_binary_grdecl},
-      {"formatted Eclipse output", K::grid, {".fegrid", ".fgrid", ".finit"}, "header in quotes",
-       "Eclipse grid or properties as text", unread, binary, is_formatted_output},
-      {"ROFF", K::grid, {".roff"}, "'roff-bin' or 'roff-asc'",
-       "RMS grid", unread, binary, is_roff},
+       "GRDECL keywords in binary records", read, binary, looks_like_binary_grdecl, nullptr, parse_binary_grdecl},
+      {"ROFF", K::grid, {".roff", ".roffasc"}, "'roff-bin' or 'roff-asc'",
+       "RMS grid and parameters, binary or ASCII", read, binary, looks_like_roff, nullptr, parse_roff},
       {"RESQML", K::grid, {".epc"}, "ZIP signature",
        "RESQML package", unread, binary, is_zip},
       {"Petrel well trace", K::wells, {}, "'WELL TRACE FROM PETREL'",
@@ -130,9 +124,13 @@ const ReaderFormat* recognise(const std::string& path, std::string_view text) {
 }
 
 std::string not_read_advice(const ReaderFormat& format) {
+  if (format.is_read && format.read_grid != nullptr)
+    return "INCLUDE takes text; give this file by itself, as CASE or with --grid-include";
   if (format.kind == FormatKind::mesh) return "a mesh is the result of a run; give the deck or the GRDECL file";
   if (format.kind == FormatKind::wells) return "not read yet; write the path as CSV with MD,X,Y,TVD";
-  return "not read yet; export the grid as GRDECL text";
+  if (format.name == "Eclipse restart" || format.name == "Eclipse summary")
+    return "it holds no grid; give the EGRID file of the same run";
+  return "not read yet; export the grid as EGRID, ROFF or GRDECL";
 }
 
 const ReaderFormat& recognise_file(const std::string& path) {

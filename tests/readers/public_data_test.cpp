@@ -121,15 +121,6 @@ TEST_F(PublicData, EveryOddGridIsRead) {
   EXPECT_EQ(count, 20U);
 }
 
-TEST_F(PublicData, BinaryGridsAreRefusedWithAdvice) {
-  for (const char* name :
-       {"reek/REEK.EGRID", "spe9/BENCH_SPE9.EGRID", "spe9/BENCH_SPE9.INIT", "odd/sixcells2_hdr2.bgrdecl"}) {
-    const auto error = error_of([&] { return read_case(file(name)); });
-    ASSERT_TRUE(error);
-    EXPECT_NE(std::string(error->what()).find("not read yet"), std::string::npos) << error->what();
-  }
-}
-
 TEST_F(PublicData, DevWellsAreRead) {
   const TrajectoryFile read = read_trajectory(file("wells/TEST10K_FLT_LGR_NNC_wellpath_a.dev"));
   ASSERT_EQ(read.wells.size(), 1U);
