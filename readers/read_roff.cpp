@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "readers/cell_arrays.h"
@@ -42,6 +43,7 @@ class RoffReader {
   template <class T>
   [[nodiscard]] std::vector<T> reordered(const std::vector<T>& values) const;
   void note_depths_that_rise();
+  void require_finite(const RoffKey& key, const std::vector<double>& values) const;
 
   RoffTags file_;
   GridPart part_;
@@ -146,6 +148,7 @@ void RoffReader::make_pillars() {
       }
     }
   }
+  require_finite(*corner_lines_, part_.coord);
 }
 
 void RoffReader::check_splits() const {
@@ -196,7 +199,13 @@ void RoffReader::make_depths() {
       }
     }
   }
+  require_finite(*depths_, part_.zcorn);
   note_depths_that_rise();
+}
+
+void RoffReader::require_finite(const RoffKey& key, const std::vector<double>& values) const {
+  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+    file_.fail(key, {"coordinates that are finite when moved and scaled", "one that overflows", "the file is damaged"});
 }
 
 /// The first layer of the file is the lowest: a grid that is deeper at its top has its depths as elevations.

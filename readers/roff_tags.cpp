@@ -241,6 +241,8 @@ void RoffTags::take_byte_order(const RoffKey& key) {
   const bool plain_here = key.type == RoffType::integer && load_number<std::int32_t>(key.data.data(), false) == 1;
   if (!swapped_here && !plain_here)
     fail(key, {"the integer 1, in either byte order", "another value", "the file is damaged"});
+  // Data before it are read later: they have one order.
+  if (is_swapped_ && *is_swapped_ != swapped_here) fail(key, {"one byte order", "another one than before", cut_advice});
   is_swapped_ = swapped_here;
 }
 

@@ -181,7 +181,7 @@ std::vector<Broken> broken_grid_files() {
       {"cells that do not share pillars",
        dimens + first + ecl::inte("COORDS", {2, 1, 1, 2, 1}) + ecl::real("CORNERS", beside),
        ": CORNERS: expected corners on straight pillars, found a corner of cell 2 1 1 0.5 beside pillar 2 1 at byte "
-       "260; "
+       "276; "
        "this is no corner-point grid; export it as EGRID or GRDECL"},
       {"a cell outside", dimens + ecl::inte("COORDS", {3, 1, 1, 1, 1}) + ecl::real("CORNERS", corners),
        ": COORDS: expected a cell within 2 1 1, found 3 1 1 at byte 44; the file is damaged"},
