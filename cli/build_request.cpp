@@ -160,7 +160,7 @@ constexpr std::array options{
                     r.deck_wells.push_back(not_empty(name, "the name of a well"));
                   }
                 }},
-    BuildOption{"grid-include", "FILE", "A further GRDECL file, read after CASE", Kind::list,
+    BuildOption{"grid-include", "FILE", "A further grid or property file, read after CASE", Kind::list,
                 [](BuildRequest& r, const std::string& v) { r.grid_includes.push_back(not_empty(v, "a file")); }},
     BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
     BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value,

@@ -13,6 +13,8 @@
 #include "readers/file_content.h"
 #include "readers/formats.h"
 #include "readers/read_case.h"
+#include "readers/read_egrid.h"
+#include "readers/read_grid_file.h"
 #include "readers/read_mesh.h"
 #include "readers/read_trajectory.h"
 
@@ -165,7 +167,9 @@ GridDescription describe(const GridPart& part) {
 
 /// A file that holds no geometry of its own, and has none beside it in the run: described all the same.
 bool describe_properties(const std::string& path, const ReaderFormat& format, FileDescription& out) {
-  if (format.read_grid == nullptr) return false;
+  const bool may_lack_geometry =
+      format.read_grid != nullptr && format.read_grid != parse_egrid && format.read_grid != parse_grid_file;
+  if (!may_lack_geometry) return false;
   const FileContent content = load_file(path);
   GridPart part = format.read_grid(content.text, content.path);
   if (!part.coord.empty() || !part.zcorn.empty()) return false;

@@ -111,6 +111,7 @@ void GridSection::take_array(GridPartArray array) {
                                              : fmt::format("{} values, one a cell", cells),
            fmt::format("{}", count),
            array.may_be_active ? "give it with the EGRID file of the same run" : "the file belongs to another grid"});
+    stream_.charge_values(cells);
     array.values = spread_over_cells(array.values, std::get<std::vector<std::int32_t>>(actnum->second.values));
   }
   arrays_.arrays.insert_or_assign(array.name, CellArray{std::move(array.values), array.where});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// GRDECL keywords in binary records, as geomodellers export them (docs/formats/bgrdecl.md).
+/// GRDECL keywords in binary records, as geomodellers export them (docs/formats/egrid.md).
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "readers/deck_keywords.h"
@@ -77,7 +78,7 @@ void CaseReader::read_init_beside(const std::string& path, const std::vector<std
     return other && looks_like_init(other->text);
   };
   if (std::any_of(grid_includes.begin(), grid_includes.end(), is_init)) return;
-  const std::string stem = path.substr(0, path.find_last_of('.'));
+  const std::string stem = std::filesystem::path(path).replace_extension().string();
   for (const char* extension : {".INIT", ".FINIT"}) {
     if (!is_init(stem + extension)) continue;
     stream_.notes.push_back(fmt::format("{}{}: properties are read from this file beside the grid", stem, extension));

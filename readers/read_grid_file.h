@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// The older grid file of Eclipse: eight corners for every cell (docs/formats/grid.md).
+/// The older grid file of Eclipse: eight corners for every cell (docs/formats/egrid.md).
 #pragma once
 
 #include <string>

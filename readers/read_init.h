@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// Static properties from the INIT file that a simulator writes (docs/formats/init.md).
+/// Static properties from the INIT file that a simulator writes (docs/formats/egrid.md).
 #pragma once
 
 #include <string>

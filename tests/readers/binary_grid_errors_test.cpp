@@ -12,7 +12,9 @@
 namespace wellknit {
 namespace {
 
-std::string sample(const std::string& name) { return std::string(load_file(std::string(WELLKNIT_TESTDATA) + "/" + name).text); }
+std::string sample(const std::string& name) {
+  return std::string(load_file(std::string(WELLKNIT_TESTDATA) + "/" + name).text);
+}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
