@@ -158,6 +158,9 @@ constexpr auto keyword_rules = std::to_array<DeckKeywordRule>({
     {"COMPDATL", A::refuse, in_schedule, local_refinement},
     {"WELTRAJ", A::well_path, in_schedule},
     {"COMPTRAJ", A::well_path, in_schedule},
+    {"WELSEGS", A::well_path, in_schedule},
+    {"COMPSEGS", A::well_path, in_schedule},
+    {"WLIST", A::well_path, in_schedule},
 });
 
 constexpr CellArrayRule needed(std::string_view name) { return {name, CellArrayKind::real, 0.0, false, false}; }

@@ -119,10 +119,14 @@ WellDescription describe(const Well& well) {
   const Trajectory& path = well.trajectory;
   WellDescription out;
   out.name = well.name;
+  out.parent = well.parent;
+  out.branch = well.branch;
+  out.perforations = well.perforations.size();
   out.stations = path.points.size();
   out.completions = well.completions.size();
   out.is_approximate = well.approximate_path;
-  if (!well.completions.empty()) out.type = well.type == WellType::injector ? "injector" : "producer";
+  if (!well.completions.empty() || !well.perforations.empty())
+    out.type = well.type == WellType::injector ? "injector" : "producer";
   if (path.points.empty()) return out;
   out.measured_depth_from = path.measured_depth.front();
   out.measured_depth_to = path.measured_depth.back();
@@ -149,7 +153,7 @@ FileDescription describe_file(const std::string& path) {
       break;
     }
     case FormatKind::wells: {
-      TrajectoryFile read = read_trajectory(path);
+      TrajectoryFile read = read_trajectory(path, {{}, true});
       for (const Well& well : read.wells) out.wells.push_back(describe(well));
       out.notes = std::move(read.notes);
       break;

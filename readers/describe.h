@@ -42,6 +42,8 @@ struct GridDescription {
 
 struct WellDescription {
   std::string name;
+  std::string parent;  ///< of a branch: its well; empty for a main bore
+  int branch = 1;
   std::string type;  ///< "producer" or "injector"; empty for a trajectory file
   std::size_t stations = 0;
   double measured_depth_from = 0.0;  ///< m
@@ -51,6 +53,7 @@ struct WellDescription {
   double largest_deviation = 0.0;  ///< degrees from the vertical, of any stretch
   double open_length = 0.0;        ///< m, measured depth open to flow
   std::size_t completions = 0;     ///< cells of COMPDAT
+  std::size_t perforations = 0;    ///< records of COMPTRAJ
   bool is_approximate = false;     ///< a path through cell centres
 };
 

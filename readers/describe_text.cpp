@@ -38,6 +38,8 @@ std::string grid_text(const GridDescription& grid) {
 
 std::string well_text(const WellDescription& well) {
   std::string text = fmt::format("well {}: {}", well.name, well.type.empty() ? "" : well.type + ", ");
+  if (!well.parent.empty()) text += fmt::format("branch {} of {}, ", well.branch, well.parent);
+  if (well.perforations > 0) text += fmt::format("{} perforations, ", well.perforations);
   if (well.completions > 0) text += fmt::format("{} completed cells, ", well.completions);
   text += fmt::format(
       "{} stations, measured depth {:.3f} to {:.3f} m, depth {:.3f} to {:.3f} m, up to {:.1f} degrees from the "
@@ -91,6 +93,8 @@ Json grid_json(const GridDescription& grid) {
 
 Json well_json(const WellDescription& well) {
   return {{"name", well.name},
+          {"parent", well.parent.empty() ? Json(nullptr) : Json(well.parent)},
+          {"branch", well.branch},
           {"type", well.type.empty() ? Json(nullptr) : Json(well.type)},
           {"stations", well.stations},
           {"measured_depth", {number(well.measured_depth_from), number(well.measured_depth_to)}},
@@ -98,6 +102,7 @@ Json well_json(const WellDescription& well) {
           {"largest_deviation", number(well.largest_deviation)},
           {"open_length", number(well.open_length)},
           {"completions", well.completions},
+          {"perforations", well.perforations},
           {"approximate_path", well.is_approximate}};
 }
 

@@ -13,7 +13,11 @@
 #include "readers/file_content.h"
 #include "readers/read_trajectory_csv.h"
 #include "readers/read_trajectory_dev.h"
+#include "readers/read_trajectory_json.h"
+#include "readers/read_trajectory_las.h"
+#include "readers/read_trajectory_petrel.h"
 #include "readers/read_trajectory_rms.h"
+#include "readers/read_trajectory_witsml.h"
 #include "readers/text.h"
 
 namespace wellknit {
@@ -41,10 +45,6 @@ bool is_binary_grdecl(std::string_view text) { return begins_with_record(text, {
 bool is_formatted_output(std::string_view text) {
   const std::string_view start = trimmed(text.substr(0, 16));
   return starts_with(start, "'FILEHEAD'") || starts_with(start, "'INTEHEAD'") || starts_with(start, "'DIMENS");
-}
-
-bool is_petrel_trace(std::string_view text) {
-  return upper_case(text.substr(0, 200)).find("WELL TRACE FROM PETREL") != std::string::npos;
 }
 
 bool is_deck(std::string_view text) {
@@ -89,11 +89,17 @@ std::vector<ReaderFormat> make_table() {
       {"RESQML", K::grid, {".epc"}, "ZIP signature",
        "RESQML package", unread, binary, is_zip},
       {"Petrel well trace", K::wells, {}, "'WELL TRACE FROM PETREL'",
-       "Petrel well path", unread, text, is_petrel_trace},
+       "well path: MD X Y Z with head and datum", read, text, looks_like_petrel_trace, parse_petrel_trace},
+      {"LAS deviation", K::wells, {".las"}, "section ~V",
+       "well path: DEPT, DEVI, AZIM or X, Y, TVD among the curves", read, text, looks_like_las, parse_las},
+      {"WITSML trajectory", K::wells, {".xml"}, "XML with a trajectory",
+       "survey: WITSML 2.x and 1.4.1.1", read, text, looks_like_witsml, parse_witsml},
+      {"ResInsight JSON", K::wells, {".json"}, "JSON with \"path\"",
+       "well paths: east, north, tvd, md", read, text, looks_like_json_wells, parse_json_wells},
       {"RMS well", K::wells, {".w", ".rmswell"}, "version line 1.0 and a number of logs",
-       "well path with logs", read, text, looks_like_rms_well, parse_rms_well},
-      {"trajectory CSV", K::wells, {".csv"}, "header with X, Y and TVD",
-       "well path: columns MD, X, Y, TVD", read, text, looks_like_trajectory_csv, parse_trajectory_csv},
+       "well paths with logs and perforations, several a file", read, text, looks_like_rms_well, parse_rms_well},
+      {"trajectory CSV", K::wells, {".csv"}, "header with X, Y, TVD or MD, INC, AZI",
+       "well paths: positions or a survey, metres or feet", read, text, looks_like_trajectory_csv, parse_trajectory_csv},
       {"ResInsight .dev", K::wells, {".dev"}, "rows X Y TVD MD, name lines, -999",
        "well paths, several a file", read, text, looks_like_dev_wells, parse_dev_wells},
       {"Eclipse deck", K::grid, {".data"}, "RUNSPEC",

@@ -22,8 +22,9 @@ struct ReaderFormat {
   std::string_view description;
   bool is_read;  ///< false: recognised, and refused with advice
   bool is_binary;
-  bool (*recognises)(std::string_view text);                                               ///< by content
-  TrajectoryFile (*read_wells)(std::string_view text, const std::string& path) = nullptr;  ///< kind wells
+  bool (*recognises)(std::string_view text);  ///< by content
+  TrajectoryFile (*read_wells)(std::string_view text, const std::string& path,
+                               const TrajectoryOptions& options) = nullptr;  ///< kind wells
 };
 
 /// In the order in which they are tried.

@@ -109,11 +109,7 @@ void CaseReader::handle(const DeckKeyword& keyword) {
     case DeckAction::skip: skips_unknown_ = true; return;
     case DeckAction::flag: return;
     case DeckAction::skip_record: stream_.skip_record(); return;
-    case DeckAction::well_path:
-      stream_.note_once(keyword.name, keyword.line,
-                        fmt::format("{} is not read yet; give the path as a trajectory file", keyword.name));
-      skips_unknown_ = true;
-      return;
+    case DeckAction::well_path: return wells_.read_path(keyword.name);
     case DeckAction::welspecs: return wells_.read_welspecs();
     case DeckAction::compdat: return wells_.read_compdat();
     case DeckAction::injectors: return wells_.read_injectors();

@@ -34,6 +34,13 @@ TEST(Formats, AreRecognisedByContentWhateverTheirNames) {
   EXPECT_EQ(name_of("x", "# WELL TRACE FROM PETREL\n"), "Petrel well trace");
   EXPECT_EQ(name_of("x", "1.0\nPlanned\nW 0 0\n0\n0 0 0\n"), "RMS well");
   EXPECT_EQ(name_of("x", "md;x;y;tvd\n"), "trajectory CSV");
+  EXPECT_EQ(name_of("x", "# head 1 2 3\nMD,INCL,AZIM\n"), "trajectory CSV");
+  EXPECT_EQ(name_of("x", "X Y TVD MD\nName W\n0 0 0 0\n"), "ResInsight .dev") << "a heading is no CSV";
+  EXPECT_EQ(name_of("x", "{\"name\":\"A\",\"path\":[]}"), "ResInsight JSON");
+  EXPECT_EQ(name_of("x", "# made by\n~Version Information\n"), "LAS deviation");
+  EXPECT_EQ(name_of("x", "<?xml version=\"1.0\"?>\n<trajectorys xmlns=\"http://www.witsml.org\">"),
+            "WITSML trajectory");
+  EXPECT_EQ(name_of("x", "\x1B[?1034h1.0\nPlanned\nW 0 0\n0\n0 0 0\n"), "RMS well");
   EXPECT_EQ(name_of("x", "WELLNAME: 'A'\n"), "ResInsight .dev");
   EXPECT_EQ(name_of("x", "# X Y TVDMSL MDMSL\n1 2 3 4\n"), "ResInsight .dev") << "a comment is no header here";
   EXPECT_EQ(name_of("x", "-- deck\nRUNSPEC\n"), "Eclipse deck");

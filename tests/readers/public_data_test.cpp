@@ -5,6 +5,7 @@
 /// skipped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <numeric>
@@ -147,12 +148,24 @@ TEST_F(PublicData, RmsWellsAreRead) {
   EXPECT_EQ(read_trajectory(file("reek/wells/XP_with_repeat.w")).wells.size(), 1U);
 }
 
-TEST_F(PublicData, DecksWithTrajectoriesSayThatTheseAreNotRead) {
+TEST_F(PublicData, DecksWithTrajectoriesHaveTheirWells) {
   const Case read = read_case(file("decks/SPE1CASE1_WELTRAJ.DATA"));
   EXPECT_EQ(read.grid.dimensions, (std::array<std::int64_t, 3>{10, 10, 3}));
   // 10 x 10 columns of 1000 ft, 20 + 30 + 50 ft thick.
   EXPECT_NEAR(volume(read.grid), 1e4 * 1e4 * 100 * cubic_foot, 1.0);
-  EXPECT_EQ(read.notes.size(), 4U) << "WELTRAJ, COMPTRAJ, and two wells without COMPDAT";
+  ASSERT_EQ(read.deck_wells.size(), 2U);
+  for (const Well& well : read.deck_wells) {
+    EXPECT_FALSE(well.approximate_path);
+    EXPECT_DOUBLE_EQ(well.radial.bore_radius, 0.25 * metre_per_foot);
+    EXPECT_EQ(well.skin, 0.1);
+    ASSERT_EQ(well.open.size(), 1U);
+    EXPECT_DOUBLE_EQ(well.open[0].from, 8325 * metre_per_foot);
+  }
+  const auto prod = std::find_if(read.deck_wells.begin(), read.deck_wells.end(),
+                                 [](const Well& well) { return well.name == "PROD"; });
+  ASSERT_NE(prod, read.deck_wells.end());
+  EXPECT_EQ(prod->trajectory.points.back(), Vec3(9500, 9500, 8425) * metre_per_foot);
+  EXPECT_EQ(read_case(file("decks/SPE1CASE1_WELTRAJ_2.DATA")).deck_wells.size(), 2U);
 }
 
 }  // namespace
