@@ -26,10 +26,10 @@ namespace segment {
 constexpr std::size_t first = 0, last = 1, branch = 2, outlet = 3, measured_depth = 4, depth = 5, x = 10, y = 11;
 }
 namespace compsegs {
-constexpr std::size_t i = 0, j = 1, k = 2, branch = 3, from = 4, to = 5, direction = 6, end = 7;
+constexpr std::size_t i = 0, branch = 3, from = 4, to = 5, direction = 6, end = 7;
 }
 
-constexpr std::int64_t most_segments = 1'000'000;
+constexpr std::int64_t most_segments = 100'000;
 constexpr double farthest = 1e8;  // m: no coordinate
 
 double number(const DeckStream& stream, const DeckRecord& record, std::size_t item, double fallback) {
@@ -113,7 +113,7 @@ class SegmentedWell {
   }
   std::map<std::int64_t, std::vector<BranchCell>> cells_by_branch();
   std::optional<Well> branch_well(std::int64_t branch, std::vector<BranchCell> cells);
-  std::optional<Trajectory> path_through_nodes(std::int64_t branch) const;
+  std::optional<Trajectory> path_through_nodes(std::int64_t branch);
   void set_path_through_cells_at(Well& well, const std::vector<BranchCell>& cells) const;
 
   DeckStream& stream_;
@@ -156,8 +156,9 @@ std::map<std::int64_t, std::vector<BranchCell>> SegmentedWell::cells_by_branch()
 }
 
 /// Through the outlet of the branch's first node and its nodes, where all have x and y.
-std::optional<Trajectory> SegmentedWell::path_through_nodes(std::int64_t branch) const {
+std::optional<Trajectory> SegmentedWell::path_through_nodes(std::int64_t branch) {
   static constexpr double same_point = 1e-6;  // m
+  stream_.charge_steps(static_cast<std::int64_t>(segments_.nodes.size()));
   std::vector<const DeckSegment*> nodes;
   for (const auto& [number, node] : segments_.nodes)
     if (node.branch == branch) nodes.push_back(&node);
@@ -239,6 +240,7 @@ std::optional<Well> SegmentedWell::branch_well(std::int64_t branch, std::vector<
   const auto& md = out.trajectory.measured_depth;
   for (const BranchCell& cell : cells) {
     const MeasuredDepthRange cut{std::max(cell.range->from, md.front()), std::min(cell.range->to, md.back())};
+    stream_.charge_steps(static_cast<std::int64_t>(out.open.size()));
     if (cell.completion.open) out.open = with(out.open, cut);
   }
   // An empty list would mean open everywhere.

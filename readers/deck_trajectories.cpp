@@ -73,10 +73,11 @@ MeasuredDepthRange inside(const Eigen::AlignedBox3d& box, const Vec3& a, const V
 }
 
 /// Opens the well where its path crosses the boxes around its open completions' cells.
-void open_by_cells(Well& well, const CornerPointGrid& grid) {
+void open_by_cells(DeckStream& stream, Well& well, const CornerPointGrid& grid) {
   const Trajectory& path = well.trajectory;
   for (const DeckCompletion& completion : well.completions) {
     if (!completion.open) continue;
+    stream.charge_steps(static_cast<std::int64_t>(path.points.size() * (1 + well.open.size())));
     Eigen::AlignedBox3d box;
     for (const Vec3& corner : grid.corners(completion.cell)) box.extend(corner);
     for (std::size_t n = 1; n < path.points.size(); ++n) {
@@ -154,6 +155,7 @@ std::optional<MeasuredDepthRange> BranchWell::range_of(const DeckBranch::Perfora
 void BranchWell::set_perforations() {
   bool has_factor = false;
   for (const DeckBranch::PerforationRecord& record : branch_.perforations) {
+    stream_.charge_steps(static_cast<std::int64_t>(well_.trajectory.points.size() + well_.open.size()));
     const auto range = range_of(record);
     if (!range) continue;
     Perforation perforation = record.perforation;
@@ -191,7 +193,7 @@ std::optional<Well> BranchWell::make(const CornerPointGrid& grid) {
     set_bore();
     if (well_.open.empty()) note("COMPTRAJ opens nothing of it");
   } else if (!well_.completions.empty()) {
-    open_by_cells(well_, grid);
+    open_by_cells(stream_, well_, grid);
     note("no COMPTRAJ: it is open where its path crosses the boxes of its COMPDAT cells");
   } else {
     note("neither COMPTRAJ nor COMPDAT: it is taken as open over its whole length");
@@ -281,7 +283,6 @@ std::vector<Well> wells_with_trajectories(DeckStream& stream, const Well& well, 
                                          stream.main_file(), base.name));
       continue;
     }
-    std::vector<Perforation> perforations;
     if (auto made = BranchWell(stream, std::move(base), branch, metre).make(grid)) {
       for (Perforation& perforation : made->perforations) {
         if (perforation.connection_factor) *perforation.connection_factor *= m3_per_transmissibility_unit(grid.units);

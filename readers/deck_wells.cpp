@@ -68,6 +68,7 @@ std::vector<DeckWells::Specification*> DeckWells::named(const DeckRecord& record
   const std::string_view pattern = trimmed(record.items[0].text);
   stream_.charge_steps(static_cast<std::int64_t>(specifications_.size()));
   if (const auto list = lists_.find(upper_case(pattern)); list != lists_.end()) {
+    stream_.charge_steps(static_cast<std::int64_t>(specifications_.size() * list->second.size()));
     for (Specification& specification : specifications_)
       if (is_in(list->second, specification.well.name)) out.push_back(&specification);
     return out;
@@ -139,6 +140,7 @@ void DeckWells::read_well_list() {
     std::vector<std::string>& list = lists_[name];
     if (action == "NEW") list.clear();
     const auto leaves = [&](std::vector<std::string>& from) {
+      stream_.charge_steps(static_cast<std::int64_t>(from.size() * wells.size()));
       std::erase_if(from, [&](const std::string& well) { return is_in(wells, well); });
     };
     if (action == "MOV")

@@ -88,7 +88,7 @@ std::vector<ReaderFormat> make_table() {
        "RMS grid", unread, binary, is_roff},
       {"RESQML", K::grid, {".epc"}, "ZIP signature",
        "RESQML package", unread, binary, is_zip},
-      {"Petrel well trace", K::wells, {}, "'WELL TRACE FROM PETREL'",
+      {"Petrel well trace", K::wells, {".wellpath"}, "'WELL TRACE FROM PETREL'",
        "well path: MD X Y Z with head and datum", read, text, looks_like_petrel_trace, parse_petrel_trace},
       {"LAS deviation", K::wells, {".las"}, "section ~V",
        "well path: DEPT, DEVI, AZIM or X, Y, TVD among the curves", read, text, looks_like_las, parse_las},

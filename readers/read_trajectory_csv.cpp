@@ -144,6 +144,7 @@ class CsvReader {
   WellHeads heads_;
   std::vector<StationRows> wells_;
   std::map<std::pair<std::string, std::string>, std::size_t> place_;
+  std::map<std::string, int> branches_of_;  ///< so far, by well
   TrajectoryFile out_;
 };
 
@@ -246,7 +247,10 @@ StationRows& CsvReader::rows_of(const std::vector<std::string_view>& fields, std
   std::string branch = text(C::branch);
   if (branch == "0" || branch == "1") branch.clear();
   const auto [found, is_new] = place_.emplace(std::pair(well, branch), wells_.size());
-  if (is_new) wells_.push_back({std::move(well), std::move(branch), line, {}, {}});
+  if (is_new) {
+    const int order = branch.empty() ? 1 : 2 + branches_of_[well]++;
+    wells_.push_back({std::move(well), std::move(branch), order, line, {}, {}});
+  }
   return wells_[found->second];
 }
 
@@ -277,7 +281,7 @@ void CsvReader::take_row(std::string_view line, std::int64_t number) {
 }
 
 TrajectoryFile CsvReader::finish() {
-  if (wells_.empty()) wells_.push_back({well_name_from_path(path_), "", header_line_, {}, {}});
+  if (wells_.empty()) wells_.push_back({well_name_from_path(path_), "", 1, header_line_, {}, {}});
   if (!header_.layout.has(header_.layout.measured_depth_column()))
     out_.notes.push_back(fmt::format("{}: no column MD: arc length is taken", path_));
   if (header_.layout.has(C::z) && header_.layout.has(C::tvd) && header_.layout.depth_column() == C::z)

@@ -37,27 +37,19 @@ pugi::xml_node child(const pugi::xml_node& parent, std::string_view name) {
 
 std::string text_of(const pugi::xml_node& node) { return std::string(trimmed(node.child_value())); }
 
+/// Lines of nodes, from where they stand in the text.
 class Lines {
  public:
-  explicit Lines(std::string_view text) : text_(text) {}
-  /// Nodes come in the file's order, so that one pass over the text counts for all of them.
-  std::int64_t of(const pugi::xml_node& node) {
-    const auto offset = node.offset_debug();
-    const std::size_t to = offset < 0 ? 0 : std::min(static_cast<std::size_t>(offset), text_.size());
-    if (to < at_) {
-      at_ = 0;
-      line_ = 1;
-    }
-    line_ += std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
-                        text_.begin() + static_cast<std::ptrdiff_t>(to), '\n');
-    at_ = to;
-    return line_;
+  explicit Lines(std::string_view text) {
+    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
+      ends_.push_back(static_cast<std::ptrdiff_t>(at));
+  }
+  [[nodiscard]] std::int64_t of(const pugi::xml_node& node) const {
+    return 1 + (std::lower_bound(ends_.begin(), ends_.end(), node.offset_debug()) - ends_.begin());
   }
 
  private:
-  std::string_view text_;
-  std::size_t at_ = 0;
-  std::int64_t line_ = 1;
+  std::vector<std::ptrdiff_t> ends_;
 };
 
 constexpr std::array names{
@@ -72,7 +64,7 @@ const char* element_of(C column) {
 }
 
 /// The value of a station's element in metres or radians.
-double value_of(const pugi::xml_node& station, C column, const std::string& path, Lines& lines) {
+double value_of(const pugi::xml_node& station, C column, const std::string& path, const Lines& lines) {
   const pugi::xml_node node = child(station, element_of(column));
   const std::int64_t line = lines.of(node);
   const std::string name(local_name(node));
@@ -110,7 +102,7 @@ std::string name_of_trajectory(const pugi::xml_node& trajectory, const std::stri
   return well_name_from_path(path);
 }
 
-void add_trajectory(TrajectoryFile& out, const pugi::xml_node& trajectory, Lines& lines, const std::string& path,
+void add_trajectory(TrajectoryFile& out, const pugi::xml_node& trajectory, const Lines& lines, const std::string& path,
                     const TrajectoryOptions& options) {
   std::vector<pugi::xml_node> stations;
   for (const pugi::xml_node& node : trajectory.children())
@@ -159,7 +151,7 @@ TrajectoryFile parse_witsml(std::string_view text, const std::string& path, cons
     throw ParseError({path, 1 + std::count(before.begin(), before.end(), '\n'), ""},
                      {"XML", result.description(), "the file is cut or damaged"});
   }
-  Lines lines(text);
+  const Lines lines(text);
   TrajectoryFile out;
   const pugi::xml_node root = document.document_element();
   if (is_named(root, "Trajectory")) {

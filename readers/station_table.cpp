@@ -375,10 +375,7 @@ void add_station_rows(TrajectoryFile& file, const std::string& path, const Stati
   StationList list;
   list.file = path;
   list.line = rows.line;
-  const auto of_this_well = std::count_if(file.wells.begin(), file.wells.end(), [&](const Well& well) {
-    return well.name == rows.well || well.parent == rows.well;
-  });
-  set_branch(list, rows.well, rows.branch, static_cast<int>(of_this_well) + 1);
+  set_branch(list, rows.well, rows.branch, rows.order);
   list.has_measured_depth = layout.has(layout.measured_depth_column());
   const WellHead head = head_of(rows, options);
   switch (layout.source().value_or(PathSource::positions)) {

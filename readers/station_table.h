@@ -120,6 +120,7 @@ StationRow make_row(const StationLayout& layout, std::int64_t line, Get get) {
 struct StationRows {
   std::string well;
   std::string branch;  ///< as in the source; empty: the main bore
+  int order = 2;       ///< of a branch whose name is no number: 2 for the first of its well
   std::int64_t line = 0;
   WellHead head;
   std::vector<StationRow> rows;

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "model/units.h"
+#include "readers/read_case.h"
 #include "tests/readers/reader_helpers.h"
 
 namespace wellknit {
@@ -299,6 +300,27 @@ TEST(DeckSegments, FaultsAreNamed) {
   expect_error("COMPSEGS\n W /\n 9 1 1 1 0 1 /\n/\n", "COMPSEGS", "I between 1 and 4 as item 1, found 9");
   expect_error("COMPSEGS\n W /\n 1 1 1 1 2 1 /\n/\n", "COMPSEGS", "an end below the start, items 5 and 6");
   expect_error("COMPSEGS\n W /\n 1 1 1 1 2* U 3 /\n/\n", "COMPSEGS", "X, Y, Z, I, J or K as item 7");
+}
+
+TEST(DeckWells, SampleHasEveryKindOfPath) {
+  const Case read = read_case(std::string(WELLKNIT_TESTDATA) + "/grdecl/laterals.DATA");
+  ASSERT_EQ(read.deck_wells.size(), 5U);
+  const auto named = [&](const std::string& name) {
+    return *std::find_if(read.deck_wells.begin(), read.deck_wells.end(), [&](const Well& w) { return w.name == name; });
+  };
+  // 1010 to 1030 without 1012 to 1014, where the path is vertical from depth 0 at 0.
+  EXPECT_EQ(named("T").open.size(), 2U);
+  EXPECT_EQ(named("T").open[1].from, 1014.0);
+  EXPECT_EQ(named("T:2").trajectory.points.back(), Vec3(350, 50, 1005));
+  EXPECT_FALSE(named("S").approximate_path);
+  EXPECT_EQ(named("S").trajectory.points.back(), Vec3(150, 150, 1030));
+  EXPECT_EQ(named("S").trajectory.measured_depth, (std::vector<double>{1050, 1060, 1070, 1080}));
+  EXPECT_TRUE(named("S:2").approximate_path);
+  // From the face of the first cell at x 200 to the face of the last at 400, in the middle of layer 2.
+  EXPECT_EQ(named("S:2").trajectory.points.front(), Vec3(200, 150, 1015));
+  EXPECT_EQ(named("S:2").trajectory.points.back(), Vec3(400, 150, 1015));
+  EXPECT_EQ(named("S:2").open[0].to, 1320.0);
+  EXPECT_TRUE(named("C").approximate_path);
 }
 
 }  // namespace
