@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <unordered_map>
 
 #include "model/units.h"
@@ -90,6 +91,54 @@ void add_segments(DeckStream& stream, const DeckRecord& record, bool is_incremen
     segments.nodes[n] = next;
     next.outlet = n;
   }
+}
+
+/// The cell that a record of COMPSEGS names, or begins with.
+DeckSegmentCell segment_cell(const DeckStream& stream, const DeckRecord& record, const CellIndexReader& cell_index) {
+  DeckSegmentCell cell;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto index = cell_index(record, compsegs::i + axis, axis);
+    if (!index) stream.fail(record.line, {fmt::format("{} as item {}", "IJK"[axis], axis + 1), "a default", ""});
+    cell.cell[axis] = *index;
+  }
+  cell.branch = needed_integer(stream, record, compsegs::branch, "a branch");
+  if (!stream.real(record, compsegs::to)) return cell;
+  const MeasuredDepthRange range{number(stream, record, compsegs::from, 0.0),
+                                 number(stream, record, compsegs::to, 0.0)};
+  if (range.to <= range.from) {
+    stream.fail(record.line, {"an end below the start, items 5 and 6", fmt::format("{} to {}", range.from, range.to),
+                              "measured depths rise along the bore"});
+  }
+  cell.range = range;
+  return cell;
+}
+
+std::size_t axis_of_range(const DeckStream& stream, const DeckRecord& record, const std::string& direction) {
+  static constexpr std::string_view by_axis = "XYZ";
+  static constexpr std::string_view by_index = "IJK";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (direction == by_axis.substr(axis, 1) || direction == by_index.substr(axis, 1)) return axis;
+  stream.fail(record.line, {"X, Y, Z, I, J or K as item 7", quoted_for_message(direction), ""});
+}
+
+/// A record may name a range of cells: from the last one along a direction. Their measured depths are not given. False
+/// when it does not.
+bool add_rest_of_range(DeckStream& stream, const DeckRecord& record, const CellIndexReader& cell_index,
+                       std::vector<DeckSegmentCell>& cells) {
+  const auto direction = stream.word(record, compsegs::direction);
+  if (!direction || direction->empty() || !record.has(compsegs::end)) return false;
+  const std::size_t axis = axis_of_range(stream, record, *direction);
+  const auto end = cell_index(record, compsegs::end, axis);
+  if (!end) return false;
+  DeckSegmentCell cell = cells.back();
+  cell.range.reset();
+  const std::int64_t step = *end < cell.cell[axis] ? -1 : 1;
+  stream.charge_values(8 * std::abs(*end - cell.cell[axis]));
+  while (cell.cell[axis] != *end) {
+    cell.cell[axis] += step;
+    cells.push_back(cell);
+  }
+  return true;
 }
 
 using CellPlaces = std::unordered_map<std::int64_t, std::size_t>;
@@ -287,44 +336,10 @@ void read_compsegs(DeckStream& stream, const std::function<DeckSegments&(const D
   while (true) {
     const DeckRecord record = stream.next_record(12);
     if (record.empty()) return;
-    DeckSegmentCell cell;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto index = cell_index(record, compsegs::i + axis, axis);
-      if (!index) stream.fail(record.line, {fmt::format("{} as item {}", "IJK"[axis], axis + 1), "a default", ""});
-      cell.cell[axis] = *index;
-    }
-    cell.branch = needed_integer(stream, record, compsegs::branch, "a branch");
-    const auto to = stream.real(record, compsegs::to);
-    const std::string direction = stream.word(record, compsegs::direction).value_or("");
-    if (to) {
-      const MeasuredDepthRange range{number(stream, record, compsegs::from, 0.0),
-                                     number(stream, record, compsegs::to, 0.0)};
-      if (range.to <= range.from)
-        stream.fail(record.line,
-                    {"an end below the start, items 5 and 6", fmt::format("{} to {}", range.from, range.to),
-                     "measured depths rise along the bore"});
-      cell.range = range;
-    }
+    const std::size_t first = segments.cells.size();
+    segments.cells.push_back(segment_cell(stream, record, cell_index));
     stream.charge_values(8);
-    segments.cells.push_back(cell);
-    if (direction.empty() || !record.has(compsegs::end)) continue;
-    // A range of cells: from this one along the direction.
-    const std::size_t axis = direction == "X" || direction == "I"   ? 0
-                             : direction == "Y" || direction == "J" ? 1
-                             : direction == "Z" || direction == "K" ? 2
-                                                                    : 3;
-    if (axis == 3) stream.fail(record.line, {"X, Y, Z, I, J or K as item 7", quoted_for_message(direction), ""});
-    const auto end = cell_index(record, compsegs::end, axis);
-    if (!end) continue;
-    segments.cells.back().range.reset();
-    const std::int64_t step = *end < cell.cell[axis] ? -1 : 1;
-    stream.charge_steps(std::abs(*end - cell.cell[axis]));
-    cell.range.reset();
-    while (cell.cell[axis] != *end) {
-      cell.cell[axis] += step;
-      stream.charge_values(8);
-      segments.cells.push_back(cell);
-    }
+    if (add_rest_of_range(stream, record, cell_index, segments.cells)) segments.cells[first].range.reset();
   }
 }
 

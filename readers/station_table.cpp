@@ -186,43 +186,47 @@ void append_rows(StationList& list, const StationRows& rows, const Vec3& origin)
     list.stations.push_back({origin + row.place, row.measured_depth, false, row.line});
 }
 
+std::string note_of(const StationList& list, std::int64_t line, const std::string& text) {
+  return fmt::format("{}:{}: well {}: {}", list.file, line, list.name, text);
+}
+
+/// Throws ParseError when a row does not go on from the one before it.
+void require_survey_row(const StationList& list, const std::vector<StationRow>& before, const StationRow& row) {
+  if (row.place.x() < 0.0 || row.place.x() > std::numbers::pi) {
+    throw ParseError({list.file, row.line, "INC"},
+                     {"an inclination of 0 to 180 degrees", fmt::format("{:.6g}", row.place.x() / degree), ""});
+  }
+  if (!before.empty() && row.measured_depth < before.back().measured_depth) {
+    throw ParseError(
+        {list.file, row.line, "MD"},
+        {fmt::format("a measured depth above {}", before.back().measured_depth), fmt::format("{}", row.measured_depth),
+         fmt::format("the measured depth of well {} falls: correct the station", list.name)});
+  }
+}
+
 /// The rows of a survey in rising measured depth, repeated ones dropped, from measured depth 0 on.
 std::vector<StationRow> survey_rows(std::vector<StationRow> rows, const StationList& list,
                                     std::vector<std::string>& notes) {
-  const auto note = [&](std::int64_t line, const std::string& text) {
-    notes.push_back(fmt::format("{}:{}: well {}: {}", list.file, line, list.name, text));
-  };
-  if (rows.size() > 1 && rows.front().measured_depth > rows.back().measured_depth &&
-      std::is_sorted(rows.rbegin(), rows.rend(),
-                     [](const auto& a, const auto& b) { return a.measured_depth < b.measured_depth; })) {
+  const auto less = [](const StationRow& a, const StationRow& b) { return a.measured_depth < b.measured_depth; };
+  if (rows.size() > 1 && less(rows.back(), rows.front()) && std::is_sorted(rows.rbegin(), rows.rend(), less)) {
     std::reverse(rows.begin(), rows.end());
-    note(list.line, "written from its end; turned");
+    notes.push_back(note_of(list, list.line, "written from its end; turned"));
   }
   std::vector<StationRow> kept;
   std::int64_t first_repeated = 0;
   for (const StationRow& row : rows) {
-    if (row.place.x() < 0.0 || row.place.x() > std::numbers::pi) {
-      throw ParseError({list.file, row.line, "INC"},
-                       {"an inclination of 0 to 180 degrees", fmt::format("{:.6g}", row.place.x() / degree), ""});
-    }
-    if (!kept.empty() && row.measured_depth == kept.back().measured_depth) {
-      if (first_repeated == 0) first_repeated = row.line;
-      continue;
-    }
-    if (!kept.empty() && row.measured_depth < kept.back().measured_depth) {
-      throw ParseError(
-          {list.file, row.line, "MD"},
-          {fmt::format("a measured depth above {}", kept.back().measured_depth), fmt::format("{}", row.measured_depth),
-           fmt::format("the measured depth of well {} falls: correct the station", list.name)});
-    }
-    kept.push_back(row);
+    require_survey_row(list, kept, row);
+    const bool is_repeated = !kept.empty() && row.measured_depth == kept.back().measured_depth;
+    if (is_repeated && first_repeated == 0) first_repeated = row.line;
+    if (!is_repeated) kept.push_back(row);
   }
-  if (kept.size() < rows.size())
-    note(first_repeated, fmt::format("{} repeated stations dropped", rows.size() - kept.size()));
+  if (const std::size_t dropped = rows.size() - kept.size(); dropped > 0)
+    notes.push_back(note_of(list, first_repeated, fmt::format("{} repeated stations dropped", dropped)));
   if (!kept.empty() && kept.front().measured_depth > 0.0) {
-    note(kept.front().line,
-         fmt::format("its survey begins at {} m: taken to leave the head vertically", kept.front().measured_depth));
     StationRow top = kept.front();
+    notes.push_back(
+        note_of(list, top.line,
+                fmt::format("its survey begins at {} m: taken to leave the head vertically", top.measured_depth)));
     top.measured_depth = 0.0;
     top.place.x() = 0.0;
     kept.insert(kept.begin(), top);

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iostream>
+#include <random>
 
 #include "model/units.h"
 #include "readers/read_case.h"
@@ -321,6 +323,40 @@ TEST(DeckWells, SampleHasEveryKindOfPath) {
   EXPECT_EQ(named("S:2").trajectory.points.back(), Vec3(400, 150, 1015));
   EXPECT_EQ(named("S:2").open[0].to, 1320.0);
   EXPECT_TRUE(named("C").approximate_path);
+}
+
+/// Either wells with whole paths, or one line.
+void read_damaged(const std::string& text) {
+  DeckLimits limits;
+  limits.free_values = 100'000;
+  limits.free_steps = 1'000'000;
+  MemoryFiles files({{"case", text}});
+  try {
+    const Case read = parse_case(files, "case", {}, limits);
+    for (const Well& well : read.deck_wells) {
+      ASSERT_GE(well.trajectory.points.size(), 2U);
+      ASSERT_EQ(well.trajectory.points.size(), well.trajectory.measured_depth.size());
+      ASSERT_FALSE(well.open.empty());
+      for (std::size_t n = 1; n < well.trajectory.points.size(); ++n)
+        ASSERT_GT(well.trajectory.measured_depth[n], well.trajectory.measured_depth[n - 1]);
+    }
+  } catch (const ParseError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST(DeckWells, DamageIsAnErrorOrValidWells) {
+  const std::string text = load_file(std::string(WELLKNIT_TESTDATA) + "/grdecl/laterals.DATA").text;
+  for (std::size_t n = 0; n < 200; ++n) read_damaged(text.substr(0, text.size() * n / 200));
+  const auto seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  for (int n = 0; n < 1000; ++n) {
+    std::string damaged = text;
+    damaged[random() % damaged.size()] = static_cast<char>(random() % 256);
+    read_damaged(damaged);
+  }
 }
 
 }  // namespace
