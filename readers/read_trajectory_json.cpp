@@ -25,15 +25,31 @@ std::int64_t line_at(std::string_view text, std::size_t byte) {
 }
 
 /// A file of well paths is a list of objects with a list of objects: deeper nesting is none, and costs memory.
-Json parse_json(std::string_view text, const std::string& path) {
+void require_shallow(std::string_view text, const std::string& path) {
   static constexpr int deepest = 6;
-  const auto guard = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > deepest)
-      throw ParseError({path, 0, ""}, {"well paths in JSON", "deeper nesting than they have", "is this a well path?"});
-    return true;
-  };
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (in_text && c == '\\') {
+      ++at;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      if (++depth > deepest) {
+        throw ParseError({path, line_at(text, at), ""},
+                         {"well paths in JSON", "deeper nesting than they have", "is this a well path?"});
+      }
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+}
+
+Json parse_json(std::string_view text, const std::string& path) {
+  require_shallow(text, path);
   try {
-    return Json::parse(text, guard);
+    return Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw ParseError({path, line_at(text, error.byte), ""},
                      {"JSON", error.byte >= text.size() ? "the end of the file too early" : "a fault in its form",

@@ -150,7 +150,7 @@ Vec3 needed_head(const StationList& list, WellHead head, bool needs_datum, const
     notes.push_back(fmt::format("{}:{}: well {}: no head is given; its path is shown from x {}, y {}, datum {}",
                                 list.file, list.line, list.name, head.x.value_or(0.0), head.y.value_or(0.0),
                                 head.datum.value_or(0.0)));
-  return {head.x.value_or(0.0), head.y.value_or(0.0), needs_datum ? -head.datum.value_or(0.0) : 0.0};
+  return {head.x.value_or(0.0), head.y.value_or(0.0), needs_datum ? 0.0 - head.datum.value_or(0.0) : 0.0};
 }
 
 /// Z falls along the well where it is an elevation: most of a path below the sea has it negative.
@@ -236,15 +236,23 @@ std::vector<StationRow> survey_rows(std::vector<StationRow> rows, const StationL
 
 /// Sharper than any drilled bore between two stations; near half a turn the arc is not defined.
 constexpr double sharpest_turn = 120.0 * degree;
+/// A hundred turns around: no bore has a tenth of it, and the points put into arcs stay few for rows of nonsense.
+constexpr double most_turning = 36'000.0 * degree;
 
 void append_survey(StationList& list, const StationRows& rows, const Vec3& head, std::vector<std::string>& notes) {
   const auto kept = survey_rows(rows.rows, list, notes);
   std::vector<SurveyStation> survey;
   survey.reserve(kept.size());
+  double turned = 0.0;
   for (const StationRow& row : kept) {
     survey.push_back({row.measured_depth, row.place.x(), row.place.y()});
     if (survey.size() < 2) continue;
     const double turn = dogleg(survey[survey.size() - 2], survey.back());
+    turned += turn;
+    if (turned > most_turning) {
+      throw ParseError({list.file, row.line, "INC"}, {"turns of at most 36000 degrees in all", "more up to here",
+                                                      "check inclination and azimuth, and their units"});
+    }
     if (turn > sharpest_turn) {
       throw ParseError({list.file, row.line, "INC"},
                        {"a turn of at most 120 degrees since the station before", fmt::format("{:.1f}", turn / degree),

@@ -83,7 +83,7 @@ const std::vector<Broken>& broken_files() {
       {"w.json", "{\"path\": [7]}", "w.json: path[0]: expected an object {east, north, tvd, md}, found another value"},
       {"w.json", "{\"path\": {}}", "w.json: path: expected a list 'path' of {east, north, tvd, md}, found none"},
       {"w.json", "[[[[[[[[[\"path\"]]]]]]]]]",
-       "w.json: expected well paths in JSON, found deeper nesting than they have; is this a well path?"},
+       "w.json:1: expected well paths in JSON, found deeper nesting than they have; is this a well path?"},
       // Petrel
       {"w.dev", petrel_start, "w.dev: header: expected a row naming the columns MD X Y Z, found none; the file is cut"},
       {"w.dev", petrel_start + "MD X Y\n",
@@ -118,6 +118,15 @@ const std::vector<Broken>& broken_files() {
        "that is known; see wellknit formats"},
   };
   return all;
+}
+
+TEST(BrokenWells, EndlessTurningIsRefused) {
+  std::string text = "# head 0 0 0\nMD,INC,AZI\n0,0,0\n";
+  for (int n = 1; n <= 400; ++n) text += std::to_string(n) + (n % 2 == 1 ? ",101,0\n" : ",0,0\n");
+  const auto error = error_of([&] { return parse_trajectory(text, "w.csv"); });
+  ASSERT_TRUE(error);
+  // 356 turns of 101 degrees are 35,956; the next row is line 3 + 357.
+  EXPECT_EQ(error->where().line, 360);
 }
 
 TEST(BrokenWells, EachEndsInItsOwnLine) {
