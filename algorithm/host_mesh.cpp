@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithm/host_balance.h"
 #include "algorithm/host_pillars.h"
 #include "algorithm/host_strip.h"
 #include "algorithm/source_pore_volume.h"
@@ -337,6 +338,7 @@ HostMesh build_host_mesh(const CornerPointGrid& grid) {
   number_crossings(work);
   cut_horizons(work);
   join_rows(work);
+  balance_cut_tops(work.mesh);
   return std::move(work.mesh);
 }
 

@@ -41,9 +41,12 @@ std::string make_file(std::int64_t n) {
   out << fmt::format("SPECGRID\n{} {} {} 1 F /\n", n, n, n);
   const auto coordinate = [](std::int64_t m) { return m % 3 == 2 ? 2000.0 : 50.0 * std::cbrt(double(m)); };
   write_array(out, "COORD", 6 * (n + 1) * (n + 1), coordinate, 3);
-  write_array(out, "ZCORN", 8 * n * n * n, [](std::int64_t m) { return 2000.0 + std::sqrt(double(m)) / 7.0; }, 3);
-  write_array(out, "PORO", n * n * n, [](std::int64_t m) { return 0.2 + 0.05 * std::sin(double(m)); }, 5);
-  write_array(out, "PERMX", n * n * n, [](std::int64_t m) { return 100.0 + 90.0 * std::sin(1.7 * double(m)); }, 3);
+  write_array(
+      out, "ZCORN", 8 * n * n * n, [](std::int64_t m) { return 2000.0 + std::sqrt(double(m)) / 7.0; }, 3);
+  write_array(
+      out, "PORO", n * n * n, [](std::int64_t m) { return 0.2 + 0.05 * std::sin(double(m)); }, 5);
+  write_array(
+      out, "PERMX", n * n * n, [](std::int64_t m) { return 100.0 + 90.0 * std::sin(1.7 * double(m)); }, 3);
   return path.string();
 }
 

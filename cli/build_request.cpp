@@ -151,16 +151,17 @@ void set_default(BuildRequest& request, const std::string& value) {
 using Kind = BuildOption::Kind;
 
 constexpr std::array options{
-    BuildOption{"well", "FILE[,key=value...]",
-                "A trajectory; keys: name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin",
-                Kind::list, [](BuildRequest& r, const std::string& v) { r.wells.push_back(parse_well(v)); }},
+    BuildOption{
+        "well", "FILE[,key=value...]",
+        "A trajectory; keys: name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin, x, y, kb",
+        Kind::list, [](BuildRequest& r, const std::string& v) { r.wells.push_back(parse_well(v)); }},
     BuildOption{"deck-wells", "all|NAME,...", "Wells of the deck's own schedule", Kind::value,
                 [](BuildRequest& r, const std::string& v) {
                   for (const std::string& name : split(not_empty(v, "all or names of wells"), ',')) {
                     r.deck_wells.push_back(not_empty(name, "the name of a well"));
                   }
                 }},
-    BuildOption{"grid-include", "FILE", "A further GRDECL file, read after CASE", Kind::list,
+    BuildOption{"grid-include", "FILE", "A further grid or property file, read after CASE", Kind::list,
                 [](BuildRequest& r, const std::string& v) { r.grid_includes.push_back(not_empty(v, "a file")); }},
     BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
     BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value,
@@ -271,9 +272,16 @@ void set_well_key(WellRequest& well, std::string_view key, const std::string& va
     well.to = number<double>(value, "a measured depth in metres");
   } else if (key == "skin") {
     well.skin = number<double>(value, "a number");
+  } else if (key == "x") {
+    well.head.x = number<double>(value, "the x of the well's head in metres");
+  } else if (key == "y") {
+    well.head.y = number<double>(value, "the y of the well's head in metres");
+  } else if (key == "kb") {
+    well.head.datum = number<double>(value, "the elevation of the datum in metres");
   } else {
     throw UsageError(fmt::format(
-        "unknown key '{}'; the keys are name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin",
+        "unknown key '{}'; the keys are name, radius, bore, sectors, rings, growth, segments, mode, from, to, skin, "
+        "x, y, kb",
         key));
   }
 }
@@ -362,6 +370,9 @@ std::string config_text(const BuildRequest& request) {
     insert(entry, "from", well.from);
     insert(entry, "to", well.to);
     insert(entry, "skin", well.skin);
+    insert(entry, "x", well.head.x);
+    insert(entry, "y", well.head.y);
+    insert(entry, "kb", well.head.datum);
     wells.push_back(std::move(entry));
   }
   if (!wells.empty()) table.insert("well", std::move(wells));

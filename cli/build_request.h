@@ -12,6 +12,7 @@
 
 #include "algorithm/build_mesh.h"
 #include "model/well.h"
+#include "readers/read_trajectory.h"
 
 namespace wellknit {
 
@@ -34,6 +35,7 @@ struct WellRequest {
   std::optional<double> from;
   std::optional<double> to;
   std::optional<double> skin;
+  WellHead head;  ///< of a survey whose file leaves it out
 };
 
 struct OutputRequest {

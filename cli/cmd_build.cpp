@@ -24,6 +24,7 @@
 #include "cli/usage_error.h"
 #include "model/errors.h"
 #include "readers/file_content.h"
+#include "readers/fit_to_grid.h"
 #include "readers/read_case.h"
 #include "readers/read_trajectory.h"
 
@@ -122,10 +123,13 @@ void apply(const WellRequest& request, const BuildRequest& all, Well& well) {
   well.open = {open};
 }
 
-/// The wells of one trajectory file; `name` picks one of several, or names the only one.
+/// True for the well of this name and its branches.
+bool is_called(const Well& well, const std::string& name) { return well.name == name || well.parent == name; }
+
+/// The wells of one trajectory file; `name` picks one of several with its branches, or names the only one.
 std::vector<Well> wells_of_file(const WellRequest& request, const BuildRequest& all, TrajectoryFile file) {
   if (request.name && file.wells.size() == 1) file.wells[0].name = *request.name;
-  if (request.name) std::erase_if(file.wells, [&](const Well& well) { return well.name != *request.name; });
+  if (request.name) std::erase_if(file.wells, [&](const Well& well) { return !is_called(well, *request.name); });
   if (file.wells.empty()) {
     throw InvalidInput(fmt::format("{}: no well of the name {} in it", request.file, request.name.value_or("")));
   }
@@ -141,7 +145,7 @@ std::vector<Well> chosen_deck_wells(const BuildRequest& request, const Case& sou
   }
   const bool all = request.deck_wells == std::vector<std::string>{"all"};
   for (const std::string& name : request.deck_wells) {
-    const auto same = [&](const Well& well) { return well.name == name; };
+    const auto same = [&](const Well& well) { return is_called(well, name); };
     if (!all && std::ranges::none_of(source.deck_wells, same)) {
       const std::string names =
           std::accumulate(source.deck_wells.begin(), source.deck_wells.end(), std::string(),
@@ -150,7 +154,8 @@ std::vector<Well> chosen_deck_wells(const BuildRequest& request, const Case& sou
     }
   }
   for (Well well : source.deck_wells) {
-    if (!all && std::ranges::find(request.deck_wells, well.name) == request.deck_wells.end()) continue;
+    const auto asks_for = [&](const std::string& name) { return is_called(well, name); };
+    if (!all && std::ranges::none_of(request.deck_wells, asks_for)) continue;
     well.radial = resolve(RadialChoice{}, request.radial, well.radial);
     if (well.radial.bore_radius >= well.radial.drainage_radius) {
       throw InvalidInput(fmt::format(
@@ -192,10 +197,15 @@ Inputs read_inputs(const BuildRequest& request) {
   in.wells = chosen_deck_wells(request, in.source);
   std::set<std::string> hashed;
   for (const WellRequest& well : request.wells) {
-    TrajectoryFile file = read_trajectory(well.file);
+    TrajectoryFile file = read_trajectory(well.file, {well.head, false});
     in.notes.insert(in.notes.end(), file.notes.begin(), file.notes.end());
     std::ranges::move(wells_of_file(well, request, std::move(file)), std::back_inserter(in.wells));
     if (hashed.insert(well.file).second) in.files.push_back({well.file, sha256_hex(load_file(well.file).text)});
+  }
+  for (Well& well : in.wells) {
+    // Cells of the grid are in its frame already.
+    if (well.approximate_path) continue;
+    if (auto note = fit_to_grid(well, in.source.grid)) in.notes.push_back(*std::move(note));
   }
   require_room(in.source.grid, in.wells);
   std::set<std::string> names;

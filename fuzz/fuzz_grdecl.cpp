@@ -36,10 +36,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   limits.free_values = 100'000;
   limits.free_steps = 1'000'000;
   limits.include_count = 20;
+  limits.hashes_sources = false;
   try {
     const wellknit::Case read = wellknit::parse_case(files, "case", {}, limits);
     wellknit::validate(read.grid);
     for (const wellknit::Well& well : read.deck_wells) check_well(well);
+    for (const wellknit::Fault& fault : read.grid.edits.faults) require(fault.face_count() > 0);
+    for (const std::string& note : read.notes) require(note.find('\n') == std::string::npos);
     (void)wellknit::describe(read.grid);
   } catch (const wellknit::ParseError& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos);

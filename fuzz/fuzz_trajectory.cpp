@@ -10,10 +10,8 @@
 
 #include "model/errors.h"
 #include "readers/describe.h"
+#include "readers/formats.h"
 #include "readers/parse_trajectory.h"
-#include "readers/read_trajectory_csv.h"
-#include "readers/read_trajectory_dev.h"
-#include "readers/read_trajectory_rms.h"
 
 namespace {
 
@@ -27,13 +25,14 @@ void check_well(const wellknit::Well& well) {
   for (std::size_t n = 1; n < path.points.size(); ++n) require(path.measured_depth[n] > path.measured_depth[n - 1]);
   for (const auto& point : path.points) require(point.allFinite());
   for (const auto& range : well.open) require(range.to > range.from);
+  require(well.branch >= 1 && well.parent.empty() == (well.branch == 1));
   (void)wellknit::describe(well);
 }
 
 template <class Parse>
-void run(Parse parse, std::string_view text) {
+void run(Parse parse) {
   try {
-    const wellknit::TrajectoryFile read = parse(text, "wells.txt");
+    const wellknit::TrajectoryFile read = parse();
     require(!read.wells.empty());
     for (const wellknit::Well& well : read.wells) check_well(well);
   } catch (const wellknit::ParseError& error) {
@@ -43,11 +42,12 @@ void run(Parse parse, std::string_view text) {
 
 }  // namespace
 
+/// Every reader of the table takes the bytes, whatever they look like, and so does the one that is recognised.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  run(wellknit::parse_trajectory, text);
-  run(wellknit::parse_trajectory_csv, text);
-  run(wellknit::parse_dev_wells, text);
-  run(wellknit::parse_rms_well, text);
+  const wellknit::TrajectoryOptions options{{0.0, 0.0, 0.0}, false};
+  run([&] { return wellknit::parse_trajectory(text, "wells.txt", options); });
+  for (const wellknit::ReaderFormat& format : wellknit::reader_formats())
+    if (format.read_wells != nullptr) run([&] { return format.read_wells(text, "wells.txt", options); });
   return 0;
 }

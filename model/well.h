@@ -38,6 +38,16 @@ struct DeckCompletion {
   std::optional<double> permeability_thickness;  ///< m3 (permeability * length)
 };
 
+/// A stretch of the bore opened to flow, as a record of COMPTRAJ states it.
+struct Perforation {
+  MeasuredDepthRange range;
+  bool open = true;
+  double diameter = 0.0;  ///< m; 0: not given
+  double skin = 0.0;
+  std::optional<double> connection_factor;       ///< m3, of the whole stretch
+  std::optional<double> permeability_thickness;  ///< m3 (permeability * length)
+};
+
 enum class MeshMode { automatic, layered, swept };
 
 /// Radial mesh of one well. Lengths in metres.
@@ -54,11 +64,16 @@ struct RadialOptions {
 enum class WellType { producer, injector };
 
 struct Well {
-  std::string name;
+  std::string name;  ///< of a branch: its well's name, a colon, and the branch as the source calls it ("A-1:2")
+  /// Of a branch: the name of the well that it belongs to; empty for a main bore. A branch is a well of its own with
+  /// its whole path from where its source begins it, so that whoever does not look at these two needs no other case.
+  std::string parent;
+  int branch = 1;  ///< 1 for the main bore, 2 and more for the others, in the source's order
   Trajectory trajectory;
-  bool approximate_path = false;            ///< a path through cell centres, made from COMPDAT
+  bool approximate_path = false;            ///< a path through cell centres, from COMPDAT or COMPSEGS
   std::vector<MeasuredDepthRange> open;     ///< empty: open over its whole length
   std::vector<DeckCompletion> completions;  ///< from the deck; empty for a trajectory file
+  std::vector<Perforation> perforations;    ///< from COMPTRAJ; `open` already follows them
   double skin = 0.0;
   WellType type = WellType::producer;
   std::optional<double> reference_depth;  ///< m, of the bottom-hole pressure

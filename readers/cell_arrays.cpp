@@ -157,7 +157,7 @@ void CellArrays::read_array(const CellArrayRule& rule) {
   const bool is_real = rule.kind == CellArrayKind::real;
   CellArray fresh;  // its values may come as they are read
   if (!is_real) fresh.values = std::vector<std::int32_t>();
-  CellArray& array = arrays.try_emplace(stream_.keyword().name, std::move(fresh)).first->second;
+  CellArray& array = arrays.try_emplace(stored_name(stream_.keyword().name), std::move(fresh)).first->second;
   array.last_set = here();
   const ValueCount values{rule.only_top_layer ? layer : count, count};
   if (is_real)

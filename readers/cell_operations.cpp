@@ -228,6 +228,13 @@ void CellArrays::change(const std::string& name, const DeckRecord& record, const
   if (target.array == nullptr) return;
   if (target.is_integer() && operation != ArrayOperation::multiply && value != std::trunc(value))
     stream_.fail(record.line, {fmt::format("an integer for {}", name), quoted_for_message(record.items[1].text), ""});
+  if (auto* reals = std::get_if<std::vector<double>>(&target.array->values)) {
+    const double fallback = target.fallback();
+    return selection.for_each(dimensions_, [&](std::size_t cell) {
+      double& entry = (*reals)[cell];
+      entry = operated(operation, is_given(entry) ? entry : fallback, value);
+    });
+  }
   selection.for_each(dimensions_,
                      [&](std::size_t cell) { target.set(cell, operated(operation, target.at(cell), value)); });
 }
@@ -238,7 +245,7 @@ void CellArrays::copy(const std::string& from, const DeckRecord& record, const S
   if (computed && find_computed_array(from)) return edit_computed(*computed, record, selection);
   if (computed || find_computed_array(from)) {
     const std::string text = fmt::format("{} of {} to {}: one is computed by the simulator, the other is not; skipped",
-                                         stream_.keyword().name, from, to);
+                                         stream_.keyword().name, quoted_for_message(from), quoted_for_message(to));
     return stream_.note_once(from + " to " + to, record.line, text);
   }
   if (find_cell_array(from) == nullptr) return note_unknown(from, record.line);
@@ -286,7 +293,7 @@ void CellArrays::operate(const DeckRecord& record, std::size_t function_item, co
                   "MULTA, MULTX, ADDX, MULTIPLY, POLY, MULTP, SLOG, LOG10, LOGE, INV, ABS, COPY, MAXLIM or MINLIM"});
   if (find_computed_array(to) || find_computed_array(from)) {
     const std::string text = fmt::format("{} on {} from {}: an array that the simulator computes; skipped",
-                                         stream_.keyword().name, to, from);
+                                         stream_.keyword().name, quoted_for_message(to), quoted_for_message(from));
     return stream_.note_once(stream_.keyword().name + to + from, record.line, text);
   }
   if (find_cell_array(from) == nullptr) return note_unknown(from, record.line);

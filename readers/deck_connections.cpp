@@ -233,11 +233,6 @@ void DeckConnections::read_pinch() {
   pinch.largest_gap = length(2, default_largest_gap);
   pinch.transmissibility = static_cast<PinchTransmissibility>(read_option(record, 3, {"TOPBOT", "ALL"}, 0));
   pinch.multiplier = static_cast<PinchMultiplier>(read_option(record, 4, {"TOP", "ALL"}, 0));
-  const bool is_plain =
-      pinch.threshold == default_pinch_threshold && pinch.across_gaps && pinch.largest_gap == default_largest_gap &&
-      pinch.transmissibility == PinchTransmissibility::top_and_bottom && pinch.multiplier == PinchMultiplier::top;
-  if (!is_plain)
-    stream_.note_once("PINCH", record.line, "PINCH is read, and its options are not applied to connections yet");
   edits_.pinch = pinch;
 }
 

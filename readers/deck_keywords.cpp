@@ -201,8 +201,8 @@ constexpr auto keyword_rules = std::to_array<DeckKeywordRule>({
     {"THPRESFT", A::skip_list, in_grid},
     {"MULTREGD", A::skip_list, in_grid_or_edit},
     {"MULTREGH", A::skip_list, in_grid_or_edit},
-    {"AQUCT", A::skip_list, bits({DeckSection::bare, DeckSection::grid, DeckSection::solution})},
-    {"AQUANCON", A::skip_list, bits({DeckSection::bare, DeckSection::grid, DeckSection::solution})},
+    {"AQUCT", A::skip_list, in_grid},
+    {"AQUANCON", A::skip_list, in_grid},
     {"FILEUNIT", A::skip_record, any},
     {"MESSAGES", A::skip_record, any},
     {"DEBUG", A::skip_record, any},
@@ -226,6 +226,9 @@ constexpr auto keyword_rules = std::to_array<DeckKeywordRule>({
     {"COMPDATL", A::refuse, in_schedule, local_refinement},
     {"WELTRAJ", A::well_path, in_schedule},
     {"COMPTRAJ", A::well_path, in_schedule},
+    {"WELSEGS", A::well_path, in_schedule},
+    {"COMPSEGS", A::well_path, in_schedule},
+    {"WLIST", A::well_path, in_schedule},
 });
 
 constexpr CellArrayRule needed(std::string_view name) { return {name, CellArrayKind::real, 0.0, false, false}; }

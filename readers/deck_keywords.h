@@ -63,7 +63,7 @@ enum class DeckAction : std::uint8_t {
   welspecs,
   compdat,
   injectors,  ///< WCONINJE …
-  well_path   ///< WELTRAJ …: noted
+  well_path   ///< WELTRAJ, COMPTRAJ, WELSEGS, COMPSEGS, WLIST
 };
 
 struct DeckKeywordRule {

@@ -23,14 +23,12 @@ void DeckStream::open(const std::string& path) {
   push(*std::move(content), path);
 }
 
-void DeckStream::push(FileContent content, const std::string& name) {
-  if (const auto* format = recognise_binary(content.text))
-    throw ParseError({content.path, 0, keyword_.name},
-                     {"a deck or a GRDECL file (text)", fmt::format("a file in the format {}", format->name),
-                      not_read_advice(*format)});
-  if (content.text.find('\0') != std::string::npos)
-    throw ParseError({content.path, 0, keyword_.name},
-                     {"a deck or a GRDECL file (text)", "binary data", "write the grid as GRDECL text"});
+void DeckStream::add_file(const FileContent& content, const std::string& name) {
+  if (main_file_.empty()) main_file_ = content.path;
+  add_source(content, name);
+}
+
+void DeckStream::add_source(const FileContent& content, const std::string& name) {
   if (known_sources_.insert(content.path).second) {
     sources_.push_back({name, ""});
     // The digest of a large file takes as long as its numbers: it goes on beside them.
@@ -39,6 +37,17 @@ void DeckStream::push(FileContent content, const std::string& name) {
     if (limits_.hashes_sources) digests_.push_back(std::async(policy, [content] { return sha256_hex(content.text); }));
   }
   bytes_read_ += static_cast<std::int64_t>(content.text.size());
+}
+
+void DeckStream::push(FileContent content, const std::string& name) {
+  if (const auto* format = recognise_binary(content.text))
+    throw ParseError({content.path, 0, keyword_.name},
+                     {"a deck or a GRDECL file (text)", fmt::format("a file in the format {}", format->name),
+                      not_read_advice(*format)});
+  if (content.text.find('\0') != std::string::npos)
+    throw ParseError({content.path, 0, keyword_.name},
+                     {"a deck or a GRDECL file (text)", "binary data", "write the grid as GRDECL text"});
+  add_source(content, name);
   const DeckTokens content_tokens(content.text);
   frames_.push_back({std::move(content), content_tokens});
 }

@@ -65,6 +65,8 @@ class DeckStream {
 
   /// Opens a file that stands at the top. Throws ParseError when it is missing or binary.
   void open(const std::string& path);
+  /// Takes note of a file at the top that is not a deck: as a source, and for messages.
+  void add_file(const FileContent& content, const std::string& name);
   /// Opens a file from inside another: relative to the including file's folder, else to the main file's.
   void include(std::string name, std::int64_t line);
   /// Leaves all open files.
@@ -148,6 +150,7 @@ class DeckStream {
 
   [[nodiscard]] DeckTokens& tokens() { return frames_.back().tokens; }
   void push(FileContent content, const std::string& name);
+  void add_source(const FileContent& content, const std::string& name);
   [[nodiscard]] std::optional<FileContent> find_include(const std::string& name);
   [[nodiscard]] std::string current_file() const { return frames_.empty() ? main_file_ : frames_.back().content.path; }
   DeckToken next_data_token();

@@ -21,6 +21,10 @@ constexpr std::size_t i = 1, j = 2, k_first = 3, k_last = 4, state = 5, factor =
                       direction = 12, most_items = 14;
 }
 
+bool is_in(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::optional<double> positive(std::optional<double> value) { return value && *value > 0.0 ? value : std::nullopt; }
 
 }  // namespace
@@ -57,15 +61,96 @@ void DeckWells::read_welspecs() {
   }
 }
 
-/// Wells whose name fits item 1, which may hold `*`.
+/// Wells whose name fits item 1, which may be a list of WLIST or hold `*` and `?`.
 std::vector<DeckWells::Specification*> DeckWells::named(const DeckRecord& record) {
   std::vector<Specification*> out;
   if (!record.has(0)) return out;
   const std::string_view pattern = trimmed(record.items[0].text);
   stream_.charge_steps(static_cast<std::int64_t>(specifications_.size()));
+  if (const auto list = lists_.find(upper_case(pattern)); list != lists_.end()) {
+    stream_.charge_steps(static_cast<std::int64_t>(specifications_.size() * list->second.size()));
+    for (Specification& specification : specifications_)
+      if (is_in(list->second, specification.well.name)) out.push_back(&specification);
+    return out;
+  }
   for (Specification& specification : specifications_)
     if (matches_pattern(specification.well.name, pattern)) out.push_back(&specification);
   return out;
+}
+
+std::vector<DeckWells::Specification*> DeckWells::need_named(const DeckRecord& record) {
+  auto wells = named(record);
+  if (wells.empty()) {
+    stream_.fail(record.line,
+                 {"a well that WELSPECS has named",
+                  record.has(0) ? quoted_for_message(record.items[0].text) : "a default", "check the name"});
+  }
+  return wells;
+}
+
+void DeckWells::read_path(std::string_view keyword) {
+  if (keyword == "WLIST") return read_well_list();
+  if (keyword == "WELTRAJ" || keyword == "COMPTRAJ") return read_trajectories(keyword);
+  cells_.require_dimensions();
+  const auto segments_of = [this](const DeckRecord& record) -> DeckSegments& {
+    return need_named(record).front()->segments;
+  };
+  const auto index = [this](const DeckRecord& record, std::size_t item, std::size_t axis) {
+    return cell_index(record, item, axis);
+  };
+  if (keyword == "WELSEGS")
+    read_welsegs(stream_, segments_of);
+  else
+    read_compsegs(stream_, segments_of, index);
+}
+
+void DeckWells::read_trajectories(std::string_view keyword) {
+  static constexpr std::size_t most_items = 14;
+  ++trajectory_keywords_;
+  while (true) {
+    const DeckRecord record = stream_.next_record(most_items);
+    if (record.empty()) return;
+    for (Specification* well : need_named(record)) {
+      if (keyword == "WELTRAJ")
+        add_station(stream_, record, trajectory_keywords_, well->branches);
+      else
+        add_perforation(stream_, record, well->branches);
+    }
+  }
+}
+
+/// `*LIST NEW A B /`: NEW, ADD, DEL or MOV.
+void DeckWells::read_well_list() {
+  while (true) {
+    const DeckRecord record = stream_.next_record(10'000);
+    if (record.empty()) return;
+    const std::string name = stream_.word(record, 0).value_or("");
+    const std::string action = stream_.word(record, 1).value_or("");
+    if (name.size() < 2 || name.front() != '*')
+      stream_.fail(record.line, {"the name of a list, *NAME, as item 1", quoted_for_message(name), ""});
+    if (action != "NEW" && action != "ADD" && action != "DEL" && action != "MOV")
+      stream_.fail(record.line, {"NEW, ADD, DEL or MOV as item 2", quoted_for_message(action), ""});
+    std::vector<std::string> wells;
+    for (std::size_t item = 2; item < record.items.size(); ++item) {
+      DeckRecord one;
+      one.items = {record.items[item]};
+      one.line = record.line;
+      for (const Specification* well : named(one)) wells.push_back(well->well.name);
+    }
+    std::vector<std::string>& list = lists_[name];
+    if (action == "NEW") list.clear();
+    const auto leaves = [&](std::vector<std::string>& from) {
+      stream_.charge_steps(static_cast<std::int64_t>(from.size() * wells.size()));
+      std::erase_if(from, [&](const std::string& well) { return is_in(wells, well); });
+    };
+    if (action == "MOV")
+      for (auto& [other, members] : lists_) leaves(members);
+    if (action == "DEL")
+      leaves(list);
+    else
+      list.insert(list.end(), wells.begin(), wells.end());
+    stream_.charge_values(static_cast<std::int64_t>(4 * wells.size()));
+  }
 }
 
 void DeckWells::read_injectors() {
@@ -81,12 +166,7 @@ void DeckWells::read_compdat() {
   while (true) {
     const DeckRecord record = stream_.next_record(compdat::most_items);
     if (record.empty()) return;
-    const auto wells = named(record);
-    if (wells.empty()) {
-      stream_.fail(record.line,
-                   {"a well that WELSPECS has named",
-                    record.has(0) ? quoted_for_message(record.items[0].text) : "a default", "check the name"});
-    }
+    const auto wells = need_named(record);
     const DeckCompletion completion = read_completion(record);
     for (Specification* well : wells) complete(*well, record, completion);
   }
@@ -168,32 +248,42 @@ void set_bore(Well& well) {
 
 }  // namespace
 
-std::optional<Well> DeckWells::finish_well(const Specification& specification, const CornerPointGrid& grid) {
+std::vector<Well> DeckWells::finish_well(const Specification& specification, const CornerPointGrid& grid) {
   Well well = specification.well;
-  const auto leave_out = [&](const char* reason) {
-    stream_.notes.push_back(fmt::format("{}: well {} is left out: {}", stream_.main_file(), well.name, reason));
-    return std::nullopt;
+  const auto note = [&](const std::string& text) {
+    stream_.notes.push_back(fmt::format("{}: well {}{}", stream_.main_file(), well.name, text));
   };
-  if (well.completions.empty()) return leave_out("COMPDAT completes it in no cell");
+  const auto leave_out = [&](const char* reason) {
+    note(fmt::format(" is left out: {}", reason));
+    return std::vector<Well>();
+  };
   const std::size_t given = well.completions.size();
   std::erase_if(well.completions, [&](const auto& completion) { return grid.active[completion.cell.index()] == 0; });
-  if (well.completions.empty()) return leave_out("all its completions are in inactive cells");
+  const bool has_trajectory = !specification.branches.empty();
+  if (given == 0 && !has_trajectory) return leave_out("COMPDAT completes it in no cell");
+  if (well.completions.empty() && !has_trajectory) return leave_out("all its completions are in inactive cells");
   if (well.completions.size() < given) {
-    stream_.notes.push_back(fmt::format("{}: well {}: {} of its {} completions are in inactive cells and are dropped",
-                                        stream_.main_file(), well.name, given - well.completions.size(), given));
+    note(fmt::format(": {} of its {} completions are in inactive cells and are dropped",
+                     given - well.completions.size(), given));
   }
   convert(well, grid.units);
-  set_bore(well);
+  if (!well.completions.empty()) set_bore(well);
+  if (has_trajectory) return wells_with_trajectories(stream_, well, specification.branches, grid);
+  if (!specification.segments.cells.empty()) {
+    auto wells = wells_with_segments(stream_, well, specification.segments, grid);
+    if (!wells.empty()) return wells;
+    note(": no path comes of its segments; it is taken through its completed cells");
+  }
   if (!set_path_through_cells(grid, well)) return leave_out("its completed cells have no thickness along it");
   if (std::none_of(well.completions.begin(), well.completions.end(), [](const auto& c) { return c.open; }))
-    stream_.notes.push_back(fmt::format("{}: well {}: all its completions are shut", stream_.main_file(), well.name));
-  return well;
+    note(": all its completions are shut");
+  return {std::move(well)};
 }
 
 std::vector<Well> DeckWells::finish(const CornerPointGrid& grid) {
   std::vector<Well> wells;
   for (const Specification& specification : specifications_)
-    if (auto well = finish_well(specification, grid)) wells.push_back(*std::move(well));
+    for (Well& well : finish_well(specification, grid)) wells.push_back(std::move(well));
   return wells;
 }
 

@@ -10,8 +10,12 @@
 #include <set>
 
 #include "model/units.h"
+#include "readers/cell_arrays.h"
+#include "readers/file_content.h"
 #include "readers/formats.h"
 #include "readers/read_case.h"
+#include "readers/read_egrid.h"
+#include "readers/read_grid_file.h"
 #include "readers/read_mesh.h"
 #include "readers/read_trajectory.h"
 
@@ -158,10 +162,14 @@ WellDescription describe(const Well& well) {
   const Trajectory& path = well.trajectory;
   WellDescription out;
   out.name = well.name;
+  out.parent = well.parent;
+  out.branch = well.branch;
+  out.perforations = well.perforations.size();
   out.stations = path.points.size();
   out.completions = well.completions.size();
   out.is_approximate = well.approximate_path;
-  if (!well.completions.empty()) out.type = well.type == WellType::injector ? "injector" : "producer";
+  if (!well.completions.empty() || !well.perforations.empty())
+    out.type = well.type == WellType::injector ? "injector" : "producer";
   if (path.points.empty()) return out;
   out.measured_depth_from = path.measured_depth.front();
   out.measured_depth_to = path.measured_depth.back();
@@ -173,6 +181,49 @@ WellDescription describe(const Well& well) {
   return out;
 }
 
+namespace {
+
+/// A file of properties alone: its arrays as they stand there.
+GridDescription describe(const GridPart& part) {
+  GridDescription out;
+  out.has_geometry = false;
+  out.dimensions = part.dimensions.value_or(std::array<std::int64_t, 3>{});
+  out.units = part.units ? std::string(name_of(*part.units)) : "not given";
+  out.has_map_axes = part.mapaxes.has_value();
+  for (const GridPartArray& array : part.arrays) {
+    PropertyRange range{array.name, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                        ""};
+    if (array.name == "PORO" || array.name == "NTG") range.unit = "1";
+    if (array.name.substr(0, 4) == "PERM") range.unit = "mD";
+    const auto add = [&](auto value) {
+      if (value == unset_integer || std::isnan(static_cast<double>(value))) return;
+      range.least = std::min(range.least, static_cast<double>(value));
+      range.most = std::max(range.most, static_cast<double>(value));
+    };
+    std::visit([&](const auto& values) { std::for_each(values.begin(), values.end(), add); }, array.values);
+    if (range.least <= range.most) out.properties.push_back(std::move(range));
+  }
+  std::sort(out.properties.begin(), out.properties.end(),
+            [](const PropertyRange& a, const PropertyRange& b) { return a.name < b.name; });
+  return out;
+}
+
+/// A file that holds no geometry of its own, and has none beside it in the run: described all the same.
+bool describe_properties(const std::string& path, const ReaderFormat& format, FileDescription& out) {
+  const bool may_lack_geometry =
+      format.read_grid != nullptr && format.read_grid != parse_egrid && format.read_grid != parse_grid_file;
+  if (!may_lack_geometry) return false;
+  const FileContent content = load_file(path);
+  GridPart part = format.read_grid(content.text, content.path);
+  if (!part.coord.empty() || !part.zcorn.empty()) return false;
+  out.grid = describe(part);
+  out.sources.push_back({path, sha256_hex(content.text)});
+  for (const std::string& note : part.notes) out.notes.push_back(path + ": " + note);
+  return true;
+}
+
+}  // namespace
+
 FileDescription describe_file(const std::string& path) {
   const ReaderFormat& format = recognise_file(path);
   FileDescription out;
@@ -180,6 +231,7 @@ FileDescription describe_file(const std::string& path) {
   out.format = std::string(format.name);
   switch (format.kind) {
     case FormatKind::grid: {
+      if (describe_properties(path, format, out)) break;
       Case read = read_case(path);
       out.grid = describe(read.grid);
       for (const Well& well : read.deck_wells) out.wells.push_back(describe(well));
@@ -188,7 +240,7 @@ FileDescription describe_file(const std::string& path) {
       break;
     }
     case FormatKind::wells: {
-      TrajectoryFile read = read_trajectory(path);
+      TrajectoryFile read = read_trajectory(path, {{}, true});
       for (const Well& well : read.wells) out.wells.push_back(describe(well));
       out.notes = std::move(read.notes);
       break;

@@ -45,6 +45,7 @@ struct EditsDescription {
 
 struct GridDescription {
   std::array<std::int64_t, 3> dimensions{};
+  bool has_geometry = true;  ///< false: a file of properties alone; what follows of cells and volumes is not known
   std::int64_t active_cells = 0;
   std::int64_t inverted_cells = 0;    ///< active, with a volume of the other sign than the whole
   bool is_right_handed = true;        ///< i, j, k as stored
@@ -61,6 +62,8 @@ struct GridDescription {
 
 struct WellDescription {
   std::string name;
+  std::string parent;  ///< of a branch: its well; empty for a main bore
+  int branch = 1;
   std::string type;  ///< "producer" or "injector"; empty for a trajectory file
   std::size_t stations = 0;
   double measured_depth_from = 0.0;  ///< m
@@ -70,6 +73,7 @@ struct WellDescription {
   double largest_deviation = 0.0;  ///< degrees from the vertical, of any stretch
   double open_length = 0.0;        ///< m, measured depth open to flow
   std::size_t completions = 0;     ///< cells of COMPDAT
+  std::size_t perforations = 0;    ///< records of COMPTRAJ
   bool is_approximate = false;     ///< a path through cell centres
 };
 

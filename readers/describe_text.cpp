@@ -44,8 +44,24 @@ std::string edits_text(const EditsDescription& edits) {
   return text;
 }
 
+std::string ranges_text(const GridDescription& grid) {
+  std::string text;
+  for (const PropertyRange& range : grid.properties)
+    text += fmt::format("{:<13} {:.6g} to {:.6g}{}\n", range.name, range.least, range.most,
+                        range.unit == "mD" ? " mD" : "");
+  return text;
+}
+
+std::string properties_text(const GridDescription& grid) {
+  const auto& n = grid.dimensions;
+  std::string text = "geometry      none: properties to be read with a grid (--grid-include)\n";
+  if (n[0] > 0) text += fmt::format("cells         {} x {} x {} = {}\n", n[0], n[1], n[2], n[0] * n[1] * n[2]);
+  return text + fmt::format("units         {}\n", grid.units) + ranges_text(grid);
+}
+
 std::string grid_text(const GridDescription& grid) {
   const auto& n = grid.dimensions;
+  if (!grid.has_geometry) return properties_text(grid);
   std::string text = fmt::format("cells         {} x {} x {} = {}, {} active\n", n[0], n[1], n[2], n[0] * n[1] * n[2],
                                  grid.active_cells);
   text += fmt::format("units         {}{}\n", grid.units, grid.has_map_axes ? ", with map axes" : "");
@@ -59,15 +75,13 @@ std::string grid_text(const GridDescription& grid) {
     text += fmt::format("{:<13} {:.3f} to {:.3f} m\n", names[static_cast<std::size_t>(axis)], grid.least[axis],
                         grid.most[axis]);
   }
-  for (const PropertyRange& range : grid.properties)
-    text += fmt::format("{:<13} {:.6g} to {:.6g}{}\n", range.name, range.least, range.most,
-                        range.unit == "mD" ? " mD" : "");
-  text += edits_text(grid.edits);
-  return text;
+  return text + ranges_text(grid) + edits_text(grid.edits);
 }
 
 std::string well_text(const WellDescription& well) {
   std::string text = fmt::format("well {}: {}", well.name, well.type.empty() ? "" : well.type + ", ");
+  if (!well.parent.empty()) text += fmt::format("branch {} of {}, ", well.branch, well.parent);
+  if (well.perforations > 0) text += fmt::format("{} perforations, ", well.perforations);
   if (well.completions > 0) text += fmt::format("{} completed cells, ", well.completions);
   text += fmt::format(
       "{} stations, measured depth {:.3f} to {:.3f} m, depth {:.3f} to {:.3f} m, up to {:.1f} degrees from the "
@@ -115,17 +129,20 @@ Json edits_json(const EditsDescription& edits) {
 Json grid_json(const GridDescription& grid) {
   Json out;
   out["dimensions"] = grid.dimensions;
-  out["active_cells"] = grid.active_cells;
-  out["inverted_cells"] = grid.inverted_cells;
-  out["right_handed"] = grid.is_right_handed;
+  out["geometry"] = grid.has_geometry;
+  // What depends on the geometry is null without it.
+  const auto known = [&](auto value) { return grid.has_geometry ? Json(value) : Json(nullptr); };
+  out["active_cells"] = known(grid.active_cells);
+  out["inverted_cells"] = known(grid.inverted_cells);
+  out["right_handed"] = known(grid.is_right_handed);
   out["units"] = grid.units;
   out["map_axes"] = grid.has_map_axes;
   out["connects_across_pinch"] = grid.connects_across_pinch;
-  out["bulk_volume"] = number(grid.bulk_volume);
+  out["bulk_volume"] = grid.has_geometry ? number(grid.bulk_volume) : Json(nullptr);
   out["pore_volume"] = grid.pore_volume ? number(*grid.pore_volume) : Json(nullptr);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    out["least"].push_back(number(grid.least[axis]));
-    out["most"].push_back(number(grid.most[axis]));
+    out["least"].push_back(grid.has_geometry ? number(grid.least[axis]) : Json(nullptr));
+    out["most"].push_back(grid.has_geometry ? number(grid.most[axis]) : Json(nullptr));
   }
   out["properties"] = Json::object();
   for (const PropertyRange& range : grid.properties)
@@ -137,6 +154,8 @@ Json grid_json(const GridDescription& grid) {
 
 Json well_json(const WellDescription& well) {
   return {{"name", well.name},
+          {"parent", well.parent.empty() ? Json(nullptr) : Json(well.parent)},
+          {"branch", well.branch},
           {"type", well.type.empty() ? Json(nullptr) : Json(well.type)},
           {"stations", well.stations},
           {"measured_depth", {number(well.measured_depth_from), number(well.measured_depth_to)}},
@@ -144,6 +163,7 @@ Json well_json(const WellDescription& well) {
           {"largest_deviation", number(well.largest_deviation)},
           {"open_length", number(well.open_length)},
           {"completions", well.completions},
+          {"perforations", well.perforations},
           {"approximate_path", well.is_approximate}};
 }
 

@@ -10,10 +10,20 @@
 #include "model/errors.h"
 #include "readers/deck_keywords.h"
 #include "readers/deck_tokens.h"
+#include "readers/ecl_records.h"
 #include "readers/file_content.h"
+#include "readers/read_binary_grdecl.h"
+#include "readers/read_egrid.h"
+#include "readers/read_grid_file.h"
+#include "readers/read_init.h"
+#include "readers/read_roff.h"
 #include "readers/read_trajectory_csv.h"
 #include "readers/read_trajectory_dev.h"
+#include "readers/read_trajectory_json.h"
+#include "readers/read_trajectory_las.h"
+#include "readers/read_trajectory_petrel.h"
 #include "readers/read_trajectory_rms.h"
+#include "readers/read_trajectory_witsml.h"
 #include "readers/text.h"
 
 namespace wellknit {
@@ -24,28 +34,8 @@ bool starts_with(std::string_view text, std::string_view start) { return text.su
 
 bool is_hdf5(std::string_view text) { return starts_with(text, "\x89HDF\r\n\x1a\n"); }
 bool is_zip(std::string_view text) { return starts_with(text, "PK\x03\x04"); }
-bool is_roff(std::string_view text) { return starts_with(text, "roff-bin") || starts_with(text, "roff-asc"); }
-
-/// The first header of an Eclipse output file: a record of 16 bytes, its length in big-endian before it.
-bool begins_with_record(std::string_view text, std::initializer_list<std::string_view> names) {
-  static constexpr std::string_view length("\0\0\0\x10", 4);
-  if (!starts_with(text, length) || text.size() < 12) return false;
-  const std::string_view name = trimmed(text.substr(4, 8));
-  return names.size() == 0 || std::find(names.begin(), names.end(), name) != names.end();
-}
-bool is_egrid(std::string_view text) { return begins_with_record(text, {"FILEHEAD"}); }
-bool is_eclipse_output(std::string_view text) {
-  return begins_with_record(text, {"INTEHEAD", "SEQNUM", "DIMENS", "DIMENSIO"});
-}
-bool is_binary_grdecl(std::string_view text) { return begins_with_record(text, {}); }
-bool is_formatted_output(std::string_view text) {
-  const std::string_view start = trimmed(text.substr(0, 16));
-  return starts_with(start, "'FILEHEAD'") || starts_with(start, "'INTEHEAD'") || starts_with(start, "'DIMENS");
-}
-
-bool is_petrel_trace(std::string_view text) {
-  return upper_case(text.substr(0, 200)).find("WELL TRACE FROM PETREL") != std::string::npos;
-}
+bool is_restart(std::string_view text) { return begins_with_ecl_header(text, {"SEQNUM"}); }
+bool is_summary(std::string_view text) { return begins_with_ecl_header(text, {"SEQHDR", "RESTART"}); }
 
 bool is_deck(std::string_view text) {
   DeckTokens tokens(text);
@@ -76,24 +66,34 @@ std::vector<ReaderFormat> make_table() {
   return {
       {"wellknit mesh", K::mesh, {".h5"}, "HDF5 signature",
        "hybrid mesh with connections and wells", read, binary, is_hdf5},
-      {"EGRID", K::grid, {".egrid"}, "record FILEHEAD",
-       "Eclipse binary grid", unread, binary, is_egrid},
-      {"Eclipse output", K::grid, {".grid", ".init", ".unrst"}, "record INTEHEAD, SEQNUM or DIMENS",
-       "Eclipse binary grid, properties or results", unread, binary, is_eclipse_output},
+      {"EGRID", K::grid, {".egrid", ".fegrid"}, "record FILEHEAD",
+       "Eclipse grid, binary or formatted", read, binary, looks_like_egrid, nullptr, parse_egrid},
+      {"Eclipse GRID", K::grid, {".grid", ".fgrid"}, "record DIMENS",
+       "older Eclipse grid, corners of each cell", read, binary, looks_like_grid_file, nullptr, parse_grid_file},
+      {"Eclipse INIT", K::grid, {".init", ".finit"}, "record INTEHEAD",
+       "properties that a simulator wrote; beside an EGRID", read, binary, looks_like_init, nullptr, parse_init},
+      {"Eclipse restart", K::grid, {".unrst"}, "record SEQNUM",
+       "results of a simulator", unread, binary, is_restart},
+      {"Eclipse summary", K::grid, {".unsmry", ".smspec"}, "record SEQHDR or RESTART",
+       "curves of a simulator", unread, binary, is_summary},
       {"binary GRDECL", K::grid, {".bgrdecl"}, "record with a GRDECL keyword",
-       "GRDECL keywords in binary records", unread, binary, is_binary_grdecl},
-      {"formatted Eclipse output", K::grid, {".fegrid", ".fgrid", ".finit"}, "header in quotes",
-       "Eclipse grid or properties as text", unread, binary, is_formatted_output},
-      {"ROFF", K::grid, {".roff"}, "'roff-bin' or 'roff-asc'",
-       "RMS grid", unread, binary, is_roff},
+       "GRDECL keywords in binary records", read, binary, looks_like_binary_grdecl, nullptr, parse_binary_grdecl},
+      {"ROFF", K::grid, {".roff", ".roffasc"}, "'roff-bin' or 'roff-asc'",
+       "RMS grid and parameters, binary or ASCII", read, binary, looks_like_roff, nullptr, parse_roff},
       {"RESQML", K::grid, {".epc"}, "ZIP signature",
        "RESQML package", unread, binary, is_zip},
-      {"Petrel well trace", K::wells, {}, "'WELL TRACE FROM PETREL'",
-       "Petrel well path", unread, text, is_petrel_trace},
+      {"Petrel well trace", K::wells, {".wellpath"}, "'WELL TRACE FROM PETREL'",
+       "well path: MD X Y Z with head and datum", read, text, looks_like_petrel_trace, parse_petrel_trace},
+      {"LAS deviation", K::wells, {".las"}, "section ~V",
+       "well path: DEPT, DEVI, AZIM or X, Y, TVD among the curves", read, text, looks_like_las, parse_las},
+      {"WITSML trajectory", K::wells, {".xml"}, "XML with a trajectory",
+       "survey: WITSML 2.x and 1.4.1.1", read, text, looks_like_witsml, parse_witsml},
+      {"ResInsight JSON", K::wells, {".json"}, "JSON with \"path\"",
+       "well paths: east, north, tvd, md", read, text, looks_like_json_wells, parse_json_wells},
       {"RMS well", K::wells, {".w", ".rmswell"}, "version line 1.0 and a number of logs",
-       "well path with logs", read, text, looks_like_rms_well, parse_rms_well},
-      {"trajectory CSV", K::wells, {".csv"}, "header with X, Y and TVD",
-       "well path: columns MD, X, Y, TVD", read, text, looks_like_trajectory_csv, parse_trajectory_csv},
+       "well paths with logs and perforations, several a file", read, text, looks_like_rms_well, parse_rms_well},
+      {"trajectory CSV", K::wells, {".csv"}, "header with X, Y, TVD or MD, INC, AZI",
+       "well paths: positions or a survey, metres or feet", read, text, looks_like_trajectory_csv, parse_trajectory_csv},
       {"ResInsight .dev", K::wells, {".dev"}, "rows X Y TVD MD, name lines, -999",
        "well paths, several a file", read, text, looks_like_dev_wells, parse_dev_wells},
       {"Eclipse deck", K::grid, {".data"}, "RUNSPEC",
@@ -130,9 +130,13 @@ const ReaderFormat* recognise(const std::string& path, std::string_view text) {
 }
 
 std::string not_read_advice(const ReaderFormat& format) {
+  if (format.is_read && format.read_grid != nullptr)
+    return "INCLUDE takes text; give this file by itself, as CASE or with --grid-include";
   if (format.kind == FormatKind::mesh) return "a mesh is the result of a run; give the deck or the GRDECL file";
   if (format.kind == FormatKind::wells) return "not read yet; write the path as CSV with MD,X,Y,TVD";
-  return "not read yet; export the grid as GRDECL text";
+  if (format.name == "Eclipse restart" || format.name == "Eclipse summary")
+    return "it holds no grid; give the EGRID file of the same run";
+  return "not read yet; export the grid as EGRID, ROFF or GRDECL";
 }
 
 const ReaderFormat& recognise_file(const std::string& path) {

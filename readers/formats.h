@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/grid_part.h"
 #include "readers/read_trajectory.h"
 
 namespace wellknit {
@@ -22,8 +23,10 @@ struct ReaderFormat {
   std::string_view description;
   bool is_read;  ///< false: recognised, and refused with advice
   bool is_binary;
-  bool (*recognises)(std::string_view text);                                               ///< by content
-  TrajectoryFile (*read_wells)(std::string_view text, const std::string& path) = nullptr;  ///< kind wells
+  bool (*recognises)(std::string_view text);  ///< by content
+  TrajectoryFile (*read_wells)(std::string_view text, const std::string& path,
+                               const TrajectoryOptions& options) = nullptr;          ///< kind wells
+  GridPart (*read_grid)(std::string_view bytes, const std::string& path) = nullptr;  ///< kind grid, not a deck
 };
 
 /// In the order in which they are tried.
@@ -39,7 +42,7 @@ const ReaderFormat* recognise_binary(std::string_view text);
 /// read.
 const ReaderFormat& recognise_file(const std::string& path);
 
-/// "not read yet; …" for a format that is recognised only.
+/// What to do with a file of this format where it is not read: "not read yet; …" for one that is recognised only.
 std::string not_read_advice(const ReaderFormat& format);
 
 }  // namespace wellknit

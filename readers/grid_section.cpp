@@ -153,7 +153,7 @@ CornerPointGrid GridSection::finish() {
   grid.metre_per_map_unit = metre_per_map_unit_;
   grid.has_map_coordinates = has_map_coordinates_;
   grid.edits = connections_.finish(units_);
-  grid.connects_across_pinch = grid.edits.pinch.has_value();
+  grid.connects_across_pinch = grid.edits.pinch.has_value() || grid.edits.pinchout;
   make_geometry(grid);
   take_active(grid);
   grid.porosity = take_rock_array("PORO", grid);
@@ -268,10 +268,18 @@ void GridSection::take_properties(CornerPointGrid& grid) {
   for (auto& [name, array] : arrays_.arrays) {
     const double fallback = find_cell_array(name)->default_value;
     if (auto* reals = std::get_if<std::vector<double>>(&array.values)) {
-      for (double& value : *reals) {
-        if (std::isnan(value)) value = fallback;
-        if (!std::isfinite(value)) throw ParseError(array.last_set, {"finite values", "one that overflows", ""});
+      std::size_t unset = 0;
+      for (std::size_t cell = 0; cell < reals->size(); ++cell) {
+        double& value = (*reals)[cell];
+        if (std::isinf(value)) throw ParseError(array.last_set, {"finite values", "one that overflows", ""});
+        if (!std::isnan(value)) continue;
+        unset += grid.active[cell];
+        value = fallback;
       }
+      // Simulators take such values from tables or from equilibrium.
+      if (unset > 0)
+        stream_.notes.push_back(fmt::format("{}:{}: {} has no value in {} active cells; {:g} stands there",
+                                            array.last_set.file, array.last_set.line, name, unset, fallback));
     } else {
       for (std::int32_t& value : std::get<std::vector<std::int32_t>>(array.values))
         if (value == unset_integer) value = static_cast<std::int32_t>(fallback);

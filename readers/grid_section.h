@@ -12,6 +12,7 @@
 #include "readers/cell_arrays.h"
 #include "readers/deck_connections.h"
 #include "readers/deck_stream.h"
+#include "readers/grid_part.h"
 
 namespace wellknit {
 
@@ -34,6 +35,10 @@ class GridSection {
   void read_grid_orientation();
   void read_grid_options();
 
+  /// What a binary, formatted or ROFF file holds: as if its keywords stood here. Throws ParseError when it does not fit
+  /// what was read before. Defined in grid_part.cpp.
+  void take(GridPart part, const std::string& file);
+
   void set_units(UnitSystem units) { units_ = units; }
   [[nodiscard]] UnitSystem units() const { return units_; }
   [[nodiscard]] CellArrays& arrays() { return arrays_; }
@@ -45,6 +50,8 @@ class GridSection {
 
  private:
   void set_dimensions(const DeckRecord& record);
+  void take_frame(const GridPart& part, bool is_first);
+  void take_array(GridPartArray array);
   void make_geometry(CornerPointGrid& grid);
   void make_block_centred(CornerPointGrid& grid);
   void scale_lengths(CornerPointGrid& grid, double metre_per_unit) const;

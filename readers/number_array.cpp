@@ -14,6 +14,7 @@
 #include <charconv>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "readers/text.h"
 
@@ -109,11 +110,10 @@ class PieceReader {
  public:
   PieceReader(std::string_view text, T unset) : text_(text), at_(text.data()), end_(at_ + text.size()), unset_(unset) {}
 
-  /// Writes the values to `out`, which has room for most_piece_values. Their number; nothing when something is not
-  /// plain.
-  std::optional<std::size_t> read(T* out) {
-    T* const begin = out;
-    limit_ = out + most_piece_values;
+  /// Writes the values to `room`. Their number; nothing when there are more or something is not plain.
+  std::optional<std::size_t> read(std::span<T> room) {
+    T* out = room.data();
+    limit_ = out + room.size();
     while (true) {
       while (at_ < end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
       if (at_ == end_ || *at_ == '/') break;
@@ -124,7 +124,7 @@ class PieceReader {
       }
     }
     if (at_ < end_ && at_ + 1 != end_) return std::nullopt;
-    return static_cast<std::size_t>(out - begin);
+    return static_cast<std::size_t>(out - room.data());
   }
 
  private:
@@ -231,9 +231,48 @@ void ask_for_large_pages(std::vector<T>& reserved) {
 template <class T>
 struct Piece {
   std::string_view text;
-  std::unique_ptr<T[]> values = std::make_unique_for_overwrite<T[]>(most_piece_values);
+  std::unique_ptr<T[]> values;
   std::optional<std::size_t> count;
 };
+
+/// The array in pieces, read by all threads and joined in their order.
+template <class T>
+std::optional<std::vector<T>> read_pieces(std::string_view text, std::size_t most, T unset) {
+  std::vector<T> out;
+  // A value takes two bytes unless it is repeated, so a text that is too short does not make us reserve all.
+  out.reserve(std::min(most, text.size() / 2 + 1));
+  ask_for_large_pages(out);
+  PieceCutter cutter(text);
+  const std::size_t room = std::min(most, most_piece_values);
+  std::vector<Piece<T>> pieces(static_cast<std::size_t>(2 * oneapi::tbb::this_task_arena::max_concurrency()));
+  for (Piece<T>& piece : pieces) piece.values = std::make_unique_for_overwrite<T[]>(room);
+  std::size_t next = 0;
+  std::atomic<bool> is_plain = true;
+  const auto cut = [&](oneapi::tbb::flow_control& control) -> Piece<T>* {
+    if (cutter.at_end() || !is_plain) {
+      control.stop();
+      return nullptr;
+    }
+    Piece<T>& piece = pieces[next++ % pieces.size()];
+    piece.text = cutter.next();
+    return &piece;
+  };
+  const auto read = [unset, room](Piece<T>* piece) {
+    piece->count = PieceReader<T>(piece->text, unset).read({piece->values.get(), room});
+    return piece;
+  };
+  const auto append = [&](Piece<T>* piece) {
+    is_plain = is_plain && piece->count && out.size() + *piece->count <= most;
+    if (is_plain) out.insert(out.end(), piece->values.get(), piece->values.get() + *piece->count);
+  };
+  using Mode = oneapi::tbb::filter_mode;
+  oneapi::tbb::parallel_pipeline(pieces.size(),
+                                 oneapi::tbb::make_filter<void, Piece<T>*>(Mode::serial_in_order, cut) &
+                                     oneapi::tbb::make_filter<Piece<T>*, Piece<T>*>(Mode::parallel, read) &
+                                     oneapi::tbb::make_filter<Piece<T>*, void>(Mode::serial_in_order, append));
+  if (!is_plain) return std::nullopt;
+  return out;
+}
 
 }  // namespace
 
@@ -272,39 +311,14 @@ std::int64_t count_line_ends(std::string_view text) {
 
 template <class T>
 std::optional<std::vector<T>> parse_number_array(std::string_view text, std::int64_t most, T unset) {
-  if (text.empty() || !ends_number(text.back())) return std::nullopt;
-  std::vector<T> out;
-  // A value takes two bytes unless it is repeated, so a text that is too short does not make us reserve all.
-  out.reserve(static_cast<std::size_t>(std::min(most, static_cast<std::int64_t>(text.size() / 2 + 1))));
-  ask_for_large_pages(out);
-  PieceCutter cutter(text);
-  std::vector<Piece<T>> pieces(static_cast<std::size_t>(2 * oneapi::tbb::this_task_arena::max_concurrency()));
-  std::size_t next = 0;
-  std::atomic<bool> is_plain = true;
-  const auto cut = [&](oneapi::tbb::flow_control& control) -> Piece<T>* {
-    if (cutter.at_end() || !is_plain) {
-      control.stop();
-      return nullptr;
-    }
-    Piece<T>& piece = pieces[next++ % pieces.size()];
-    piece.text = cutter.next();
-    return &piece;
-  };
-  const auto read = [unset](Piece<T>* piece) {
-    piece->count = PieceReader<T>(piece->text, unset).read(piece->values.get());
-    return piece;
-  };
-  const auto append = [&](Piece<T>* piece) {
-    is_plain = is_plain && piece->count && static_cast<std::int64_t>(out.size() + *piece->count) <= most;
-    if (is_plain) out.insert(out.end(), piece->values.get(), piece->values.get() + *piece->count);
-  };
-  using Mode = oneapi::tbb::filter_mode;
-  oneapi::tbb::parallel_pipeline(pieces.size(),
-                                 oneapi::tbb::make_filter<void, Piece<T>*>(Mode::serial_in_order, cut) &
-                                     oneapi::tbb::make_filter<Piece<T>*, Piece<T>*>(Mode::parallel, read) &
-                                     oneapi::tbb::make_filter<Piece<T>*, void>(Mode::serial_in_order, append));
-  if (!is_plain) return std::nullopt;
-  return out;
+  if (text.empty() || !ends_number(text.back()) || most < 0) return std::nullopt;
+  const auto limit = static_cast<std::size_t>(most);
+  if (text.size() > piece_bytes) return read_pieces(text, limit, unset);
+  const std::size_t room = std::min(limit, most_piece_values);
+  const auto values = std::make_unique_for_overwrite<T[]>(room);
+  const auto count = PieceReader<T>(text, unset).read({values.get(), room});
+  if (!count) return std::nullopt;
+  return std::vector<T>(values.get(), values.get() + *count);
 }
 
 template std::optional<std::vector<double>> parse_number_array(std::string_view, std::int64_t, double);

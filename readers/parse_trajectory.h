@@ -12,6 +12,6 @@
 namespace wellknit {
 
 /// As read_trajectory; the path is for messages, the extension and names that the text leaves out. Throws ParseError.
-TrajectoryFile parse_trajectory(std::string_view text, const std::string& path);
+TrajectoryFile parse_trajectory(std::string_view text, const std::string& path, const TrajectoryOptions& options = {});
 
 }  // namespace wellknit

@@ -6,12 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "readers/deck_keywords.h"
 #include "readers/deck_wells.h"
+#include "readers/formats.h"
 #include "readers/grid_section.h"
 #include "readers/parse_case.h"
+#include "readers/read_egrid.h"
+#include "readers/read_grid_file.h"
+#include "readers/read_init.h"
 #include "readers/text.h"
 #include "readers/unapplied.h"
 
@@ -30,9 +35,12 @@ bool holds_numbers_only(std::string_view text) {
 class CaseReader {
  public:
   CaseReader(FileStore& files, const DeckLimits& limits)
-      : stream_(files, limits), grid_(stream_), wells_(stream_, grid_.arrays()) {}
+      : files_(files), stream_(files, limits), grid_(stream_), wells_(stream_, grid_.arrays()) {}
 
-  void read(const std::string& path);
+  /// The format, where it has a reader of its own; nothing for a deck or GRDECL text.
+  const ReaderFormat* read(const std::string& path);
+  /// The properties that a simulator wrote beside its grid, unless they are among these files anyway.
+  void read_init_beside(const std::string& path, const std::vector<std::string>& grid_includes);
   Case finish();
   /// The next file is read as a bare one, whatever section the last one ended in.
   void start_grid_include() {
@@ -41,6 +49,7 @@ class CaseReader {
   }
 
  private:
+  const ReaderFormat* read_grid_part(const std::string& path);
   void skip_to_next_keyword();
   [[nodiscard]] bool begins_known_keyword(const DeckStream::Line& line) const;
   [[nodiscard]] bool begins_keyword_after_unknown(const DeckStream::Line& line) const;
@@ -57,6 +66,7 @@ class CaseReader {
   void skip_unknown(const DeckKeyword& keyword);
   void set_units(const std::string& name);
 
+  FileStore& files_;
   DeckStream stream_;
   GridSection grid_;
   DeckWells wells_;
@@ -65,12 +75,40 @@ class CaseReader {
   bool skips_unknown_ = false;
 };
 
-void CaseReader::read(const std::string& path) {
+/// A file whose format has its own reader; nothing for any other.
+const ReaderFormat* CaseReader::read_grid_part(const std::string& path) {
+  const auto content = files_.load(path);
+  const ReaderFormat* format = content ? recognise_binary(content->text) : nullptr;
+  if (format == nullptr || format->read_grid == nullptr) return nullptr;
+  stream_.add_file(*content, path);
+  GridPart part = format->read_grid(content->text, content->path);
+  for (const std::string& note : part.notes) stream_.notes.push_back(fmt::format("{}: {}", path, note));
+  grid_.take(std::move(part), content->path);
+  return format;
+}
+
+void CaseReader::read_init_beside(const std::string& path, const std::vector<std::string>& grid_includes) {
+  const auto is_init = [this](const std::string& name) {
+    const auto other = files_.load(name);
+    return other && looks_like_init(other->text);
+  };
+  if (std::any_of(grid_includes.begin(), grid_includes.end(), is_init)) return;
+  const std::string stem = std::filesystem::path(path).replace_extension().string();
+  for (const char* extension : {".INIT", ".FINIT"}) {
+    if (!is_init(stem + extension)) continue;
+    stream_.notes.push_back(fmt::format("{}{}: properties are read from this file beside the grid", stem, extension));
+    (void)read_grid_part(stem + extension);
+    return;
+  }
+}
+
+const ReaderFormat* CaseReader::read(const std::string& path) {
+  if (const ReaderFormat* format = read_grid_part(path)) return format;
   stream_.open(path);
   while (true) {
     skip_to_next_keyword();
     const auto keyword = stream_.next_keyword();
-    if (!keyword) return;
+    if (!keyword) return nullptr;
     handle(*keyword);
   }
 }
@@ -138,11 +176,7 @@ void CaseReader::handle(const DeckKeyword& keyword) {
       stream_.note_once(keyword.name + " in time", keyword.line,
                         fmt::format("{} in SCHEDULE changes the grid with time; it is not applied", keyword.name));
       return;
-    case DeckAction::well_path:
-      stream_.note_once(keyword.name, keyword.line,
-                        fmt::format("{} is not read yet; give the path as a trajectory file", keyword.name));
-      skips_unknown_ = true;
-      return;
+    case DeckAction::well_path: return wells_.read_path(keyword.name);
     case DeckAction::welspecs: return wells_.read_welspecs();
     case DeckAction::compdat: return wells_.read_compdat();
     case DeckAction::injectors: return wells_.read_injectors();
@@ -294,10 +328,12 @@ Case CaseReader::finish() {
 Case parse_case(FileStore& files, const std::string& path, const std::vector<std::string>& grid_includes,
                 const DeckLimits& limits) {
   CaseReader reader(files, limits);
-  reader.read(path);
+  const ReaderFormat* format = reader.read(path);
+  if (format != nullptr && (format->read_grid == parse_egrid || format->read_grid == parse_grid_file))
+    reader.read_init_beside(path, grid_includes);
   for (const std::string& include : grid_includes) {
     reader.start_grid_include();
-    reader.read(include);
+    (void)reader.read(include);
   }
   return reader.finish();
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// A deck or a bare grid file in, a Case out (docs/formats/grdecl.md).
+/// A deck or a grid file in, a Case out (docs/formats/grdecl.md, and a page for each binary format).
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@
 
 namespace wellknit {
 
-/// Reads CASE (a .DATA deck or a .GRDECL file, told by content) and then each further GRDECL file in order.
-/// Throws ParseError; see docs/formats/grdecl.md for what is read.
+/// Reads CASE (a deck or a grid file of any format, told by content) and then each further grid file in order. The
+/// INIT file beside an EGRID or GRID file is read after it, unless an INIT file is among the further ones; a note says
+/// so. Throws ParseError; see docs/formats for what is read.
 Case read_case(const std::string& path, const std::vector<std::string>& grid_includes = {});
 
 }  // namespace wellknit

@@ -9,26 +9,24 @@
 #include "readers/file_content.h"
 #include "readers/formats.h"
 #include "readers/parse_trajectory.h"
-#include "readers/read_trajectory_csv.h"
-#include "readers/read_trajectory_dev.h"
-#include "readers/read_trajectory_rms.h"
 
 namespace wellknit {
 
-TrajectoryFile parse_trajectory(std::string_view text, const std::string& path) {
+TrajectoryFile parse_trajectory(std::string_view text, const std::string& path, const TrajectoryOptions& options) {
   const ReaderFormat* format = recognise(path, text);
-  if (format != nullptr && format->is_read && format->kind == FormatKind::wells) return format->read_wells(text, path);
+  if (format != nullptr && format->is_read && format->kind == FormatKind::wells)
+    return format->read_wells(text, path, options);
   const std::string found = text.empty()        ? "an empty file"
                             : format == nullptr ? "none that is known"
                                                 : fmt::format("a file in the format {}", format->name);
   const bool unread = format != nullptr && !format->is_read;
-  throw ParseError({path, 0, ""}, {"a well path: CSV with MD,X,Y,TVD, ResInsight .dev or RMS well", found,
-                                   unread ? not_read_advice(*format) : "see wellknit formats"});
+  throw ParseError({path, 0, ""}, {"a well path: CSV with MD,X,Y,TVD or MD,INC,AZI, or another of `wellknit formats`",
+                                   found, unread ? not_read_advice(*format) : "see wellknit formats"});
 }
 
-TrajectoryFile read_trajectory(const std::string& path) {
+TrajectoryFile read_trajectory(const std::string& path, const TrajectoryOptions& options) {
   const FileContent content = load_file(path);
-  return parse_trajectory(content.text, path);
+  return parse_trajectory(content.text, path, options);
 }
 
 }  // namespace wellknit

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/errors.h"
+#include "readers/station_table.h"
 #include "readers/text.h"
 #include "readers/trajectory_stations.h"
 
@@ -35,16 +36,34 @@ std::optional<std::string_view> after_word(std::string_view line, std::string_vi
   return rest;
 }
 
+/// Without the quotes around it; typographic ones and accents serve as quotes too.
+std::string without_quotes(std::string_view text) {
+  text = trimmed(text);
+  for (const std::string_view quote : {"\xE2\x80\x98", "\xE2\x80\x99", "\xC2\xB4", "`", "\xB4", "'", "\""}) {
+    if (text.size() > quote.size() && text.substr(0, quote.size()) == quote) text.remove_prefix(quote.size());
+    if (text.size() > quote.size() && text.substr(text.size() - quote.size()) == quote)
+      text.remove_suffix(quote.size());
+  }
+  return std::string(trimmed(text));
+}
+
+/// "X Y TVD MD": a heading that says what the columns are.
+bool is_heading(const std::vector<std::string_view>& fields) {
+  return fields.size() == 4 && std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
+           return station_column(column_title(field).name) != StationColumn::other;
+         });
+}
+
 /// The well's name when the line is a name line: `name X`, `WELLNAME: 'X'`, or the bare name.
 std::optional<std::string> name_line(std::string_view line) {
   for (const std::string_view word : {"wellname", "name"})
-    if (const auto rest = after_word(line, word)) return std::string(trimmed(unquoted(*rest)));
+    if (const auto rest = after_word(line, word)) return without_quotes(*rest);
   const auto fields = split_fields(line, ' ');
   const auto numbers =
       std::count_if(fields.begin(), fields.end(), [](auto field) { return parse_real(field).has_value(); });
   // "abc 4630.6 4133.5 0" is a row with a fault, not the name of a well; so is anything that starts like a number.
   if (numbers >= 2 || is_digit(line.front()) || line.front() == '-' || line.front() == '.') return std::nullopt;
-  return std::string(trimmed(unquoted(line)));
+  return without_quotes(line);
 }
 
 Station read_row(const std::vector<std::string_view>& fields, const StationList& list, std::int64_t line) {
@@ -64,6 +83,7 @@ class DevReader {
 
   void take_line(std::string_view line, std::int64_t number) {
     const auto fields = split_fields(line, ' ');
+    if (is_heading(fields)) return require_order(fields, number);
     const auto first = parse_real(fields.front());
     if (first && *first == end_of_well && (fields.size() == 1 || fields.size() < 4)) return finish_well(number);
     if (!first) {
@@ -83,6 +103,16 @@ class DevReader {
   }
 
  private:
+  /// Rows are X Y TVD MD whatever the heading says, so it had better say that.
+  void require_order(const std::vector<std::string_view>& fields, std::int64_t line) const {
+    using C = StationColumn;
+    const auto column = [&](std::size_t n) { return station_column(column_title(fields[n]).name); };
+    const C depth = column(2);
+    const bool is_depth = depth == C::tvd || depth == C::tvdss || depth == C::depth || depth == C::z;
+    if (column(0) == C::x && column(1) == C::y && is_depth && column(3) == C::measured_depth) return;
+    throw ParseError({path_, line, "header"},
+                     {"the columns X Y TVD MD", "another order", "reorder the columns, or write the file as CSV"});
+  }
   void begin_well(const std::string& name, std::int64_t line) {
     list_ = {};
     list_.file = path_;
@@ -116,13 +146,14 @@ bool looks_like_dev_wells(std::string_view text) {
     if (content.empty()) continue;
     if (after_word(content, "wellname") || after_word(content, "name")) return true;
     const auto fields = split_fields(content, ' ');
+    if (is_heading(fields)) continue;
     return fields.size() == 4 &&
            std::all_of(fields.begin(), fields.end(), [](auto field) { return parse_real(field).has_value(); });
   }
   return false;
 }
 
-TrajectoryFile parse_dev_wells(std::string_view text, const std::string& path) {
+TrajectoryFile parse_dev_wells(std::string_view text, const std::string& path, const TrajectoryOptions&) {
   DevReader reader(path);
   LineReader lines(text);
   while (const auto line = lines.next()) {

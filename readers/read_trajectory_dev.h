@@ -14,6 +14,6 @@ namespace wellknit {
 bool looks_like_dev_wells(std::string_view text);
 
 /// The wells in this text; the path is for messages and for names the text leaves out. Throws ParseError.
-TrajectoryFile parse_dev_wells(std::string_view text, const std::string& path);
+TrajectoryFile parse_dev_wells(std::string_view text, const std::string& path, const TrajectoryOptions& options = {});
 
 }  // namespace wellknit

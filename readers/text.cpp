@@ -82,7 +82,7 @@ bool matches_pattern(std::string_view text, std::string_view pattern) {
     if (p < pattern.size() && pattern[p] == '*') {
       star = p++;
       resume = t;
-    } else if (p < pattern.size() && to_upper(pattern[p]) == to_upper(text[t])) {
+    } else if (p < pattern.size() && (pattern[p] == '?' || to_upper(pattern[p]) == to_upper(text[t]))) {
       ++p;
       ++t;
     } else if (star != std::string_view::npos) {

@@ -29,7 +29,8 @@ std::optional<double> parse_real(std::string_view text);
 /// An integer; a real number without fraction (3.0) counts as one.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-/// True when the text matches a pattern in which `*` stands for any characters; letters in any case.
+/// True when the text matches a pattern in which `*` stands for any characters and `?` for one; letters in
+/// any case.
 bool matches_pattern(std::string_view text, std::string_view pattern);
 
 /// For messages: at most 40 characters of it in quotes, anything but printable ASCII as '?'.

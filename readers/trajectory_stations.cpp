@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "model/errors.h"
 #include "readers/text.h"
@@ -21,7 +22,48 @@ constexpr double same_point = 1e-6;  // m
 /// Twice the Earth's circumference: a number beyond it is in another unit, or no coordinate.
 constexpr double farthest = 1e8;  // m
 
+/// Stations of one measured depth that differ by less are one, rounded twice (a tie-in): surveys have decimetres.
+constexpr double same_station = 0.05;  // m
+
 double distance(const Station& a, const Station& b) { return (a.point - b.point).norm(); }
+
+/// Undefined measured depths: between two that are defined in proportion to the path, beyond the first and the last of
+/// them by its length. With none defined arc length is taken.
+void fill_measured_depth(StationList& list, std::vector<std::string>& notes) {
+  auto& stations = list.stations;
+  const auto is_defined = [](const Station& station) { return !std::isnan(station.measured_depth); };
+  const auto missing = static_cast<std::size_t>(
+      std::count_if(stations.begin(), stations.end(), [&](const Station& s) { return !is_defined(s); }));
+  if (missing == 0) return;
+  if (missing == stations.size()) {
+    list.has_measured_depth = false;
+    notes.push_back(fmt::format("{}:{}: well {}: its measured depth is undefined: arc length is taken", list.file,
+                                list.line, list.name));
+    return;
+  }
+  notes.push_back(
+      fmt::format("{}:{}: well {}: its measured depth is undefined at {} of {} stations: filled in along the path",
+                  list.file, list.line, list.name, missing, stations.size()));
+  std::vector<double> arc(stations.size(), 0.0);
+  for (std::size_t n = 1; n < stations.size(); ++n) arc[n] = arc[n - 1] + distance(stations[n - 1], stations[n]);
+  std::optional<std::size_t> before;
+  for (std::size_t n = 0; n < stations.size(); ++n) {
+    if (!is_defined(stations[n])) continue;
+    for (std::size_t m = before ? *before + 1 : 0; m < n; ++m) {
+      double along = stations[n].measured_depth - (arc[n] - arc[m]);
+      if (before) {
+        const double from = stations[*before].measured_depth;
+        const double length = arc[n] - arc[*before];
+        const double fraction = length > 0.0 ? (arc[m] - arc[*before]) / length : 0.0;
+        along = from + fraction * (stations[n].measured_depth - from);
+      }
+      stations[m].measured_depth = along;
+    }
+    before = n;
+  }
+  for (std::size_t m = *before + 1; m < stations.size(); ++m)
+    stations[m].measured_depth = stations[*before].measured_depth + arc[m] - arc[*before];
+}
 
 void turn_if_written_from_end(StationList& list, std::vector<std::string>& notes) {
   auto& stations = list.stations;
@@ -36,7 +78,9 @@ void drop_repeated(StationList& list, std::vector<std::string>& notes) {
   std::vector<Station> kept;
   std::int64_t first_line = 0;
   for (const Station& station : list.stations) {
-    if (!kept.empty() && distance(kept.back(), station) <= same_point) {
+    const bool same_depth =
+        !kept.empty() && list.has_measured_depth && kept.back().measured_depth == station.measured_depth;
+    if (!kept.empty() && distance(kept.back(), station) <= (same_depth ? same_station : same_point)) {
       if (first_line == 0) first_line = station.line;
       kept.back().is_open = kept.back().is_open || station.is_open;
     } else {
@@ -116,6 +160,7 @@ double station_number(std::string_view field, const StationList& list, std::int6
 }
 
 void add_well(TrajectoryFile& file, StationList list) {
+  if (list.has_measured_depth) fill_measured_depth(list, file.notes);
   if (list.has_measured_depth) turn_if_written_from_end(list, file.notes);
   drop_repeated(list, file.notes);
   if (list.stations.size() < 2) {
@@ -128,6 +173,8 @@ void add_well(TrajectoryFile& file, StationList list) {
   compare_lengths(list, arc, file.notes);
   Well well;
   well.name = list.name;
+  well.parent = list.parent;
+  well.branch = list.branch;
   for (const Station& station : list.stations) {
     well.trajectory.points.push_back(station.point);
     well.trajectory.measured_depth.push_back(station.measured_depth);

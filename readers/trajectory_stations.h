@@ -17,7 +17,7 @@ namespace wellknit {
 
 struct Station {
   Vec3 point = Vec3::Zero();    ///< (x, y, depth), m
-  double measured_depth = 0.0;  ///< m
+  double measured_depth = 0.0;  ///< m; not a number: undefined there, and filled in along the path
   bool is_open = false;         ///< a perforation log says so
   std::int64_t line = 0;
 };
@@ -25,6 +25,8 @@ struct Station {
 struct StationList {
   std::string file;
   std::string name;
+  std::string parent;  ///< of a branch, as Well::parent
+  int branch = 1;
   std::int64_t line = 0;           ///< where the well begins
   bool has_measured_depth = true;  ///< false: arc length is taken
   bool has_perforations = false;   ///< true: `open` of the well follows the stations' is_open
@@ -35,9 +37,9 @@ struct StationList {
 /// Earth.
 double station_number(std::string_view field, const StationList& list, std::int64_t line, std::string_view column);
 
-/// Adds the well to the file's wells. Repeated stations are dropped and a path written from its end is turned, each
-/// with a note; measured depth that does not rise between different points, and fewer than two different points, throw
-/// ParseError.
+/// Adds the well to the file's wells. Repeated stations are dropped, undefined measured depths are filled in and a path
+/// written from its end is turned, each with a note; measured depth that does not rise between different points, and
+/// fewer than two different points, throw ParseError.
 void add_well(TrajectoryFile& file, StationList list);
 
 /// Name of a well after its file: no folder, no extension.

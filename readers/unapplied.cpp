@@ -20,18 +20,16 @@ struct Unapplied {
 
 /// Carried with the grid. A line goes when the mesh follows what its keyword says.
 constexpr auto carried = std::to_array<Unapplied>({
-    {"MULTX", "transmissibilities"},    {"MULTX-", "transmissibilities"},   {"MULTY", "transmissibilities"},
-    {"MULTY-", "transmissibilities"},   {"MULTZ", "transmissibilities"},    {"MULTZ-", "transmissibilities"},
-    {"MULTFLT", "transmissibilities"},  {"MULTREGT", "transmissibilities"}, {"NNC", "connections"},
-    {"EDITNNC", "transmissibilities"},  {"EDITNNCR", "transmissibilities"}, {"TRANX", "transmissibilities"},
-    {"TRANY", "transmissibilities"},    {"TRANZ", "transmissibilities"},    {"OLDTRAN", "transmissibilities"},
-    {"OLDTRANR", "transmissibilities"}, {"PINCHOUT", "connections"},        {"MULTPV", "pore volumes"},
-    {"MULTREGP", "pore volumes"},       {"PORV", "pore volumes"},           {"DEPTH", "depths"},
-    {"MINPV", "the active cells"},      {"MINPORV", "the active cells"},    {"MINPVV", "the active cells"},
+    {"OLDTRAN", "transmissibilities"},
+    {"OLDTRANR", "transmissibilities"},
+    {"DEPTH", "depths"},
 });
 
 /// Applied, or without effect by themselves.
-constexpr auto applied = std::to_array<std::string_view>({"FAULTS", "PINCH", "NEWTRAN"});
+constexpr auto applied = std::to_array<std::string_view>(
+    {"FAULTS", "PINCH",  "PINCHOUT", "NEWTRAN",  "MULTX", "MULTX-",  "MULTY",    "MULTY-",
+     "MULTZ",  "MULTZ-", "MULTFLT",  "MULTREGT", "NNC",   "EDITNNC", "EDITNNCR", "TRANX",
+     "TRANY",  "TRANZ",  "MULTPV",   "MULTREGP", "PORV",  "MINPV",   "MINPORV",  "MINPVV"});
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 # shellcheck shell=bash disable=SC2034
 
 build_packages=(cmake ninja-build g++ libeigen3-dev libfmt-dev libtbb-dev libcgal-dev libhdf5-dev libcli11-dev
-                nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev)
+                nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev libpugixml-dev)
 simulation_packages=(libopm-simulators-bin)
 test_packages=(libgtest-dev python3 python3-numpy python3-h5py python3-vtk9)
 benchmark_packages=(libbenchmark-dev libopm-common-dev)

@@ -311,6 +311,29 @@ class Wells(Case):
         self.write("a,b.csv", (self.folder / "well.csv").read_text())
         self.assertEqual(self.summary("--well", "a,b.csv,radius=9,name=W")["wells"][0]["name"], "W")
 
+    def test_survey_takes_its_head_from_the_keys(self):
+        self.write("survey.csv", "MD,INC,AZI\n0,0,0\n100,0,0\n")
+        self.fail_to_build(1, "box.GRDECL", "--well", "survey.csv", mention=["survey.csv:1: head:", "kb="])
+        well = self.summary("--well", "survey.csv,x=155,y=143,kb=-990,radius=9")["wells"][0]
+        self.assertTrue(well["meshed"], well)
+        self.assertEqual(json.loads(self.succeed("info", "survey.csv", "--json"))["wells"][0]["depth"], [0, 100])
+
+    def test_map_coordinates_are_turned_with_mapaxes(self):
+        self.write("box.GRDECL", grdecl(MAPAXES="1000 2100 1000 2000 1100 2000"))
+        self.write("map.csv", csv((1155.0, 2143.0, 990.0), (1155.0, 2143.0, 1090.0)))
+        summary = self.summary("--well", "map.csv,radius=9")
+        self.assertTrue(summary["wells"][0]["meshed"])
+        self.assertTrue([note for note in summary["notes"] if "with MAPAXES" in note], summary["notes"])
+        self.write("far.csv", csv((9155.0, 2143.0, 990.0), (9155.0, 2143.0, 1090.0)))
+        (self.folder / "out.h5").unlink()
+        self.fail_to_build(1, "box.GRDECL", "--well", "far.csv,radius=9", mention=["well far does not meet the grid"])
+
+    def test_name_picks_a_well_with_its_branches(self):
+        rows = "A,,155,143,990\nA,,155,143,1090\nA,2,155,143,990\nA,2,95,103,1090\nB,,55,43,990\nB,,55,43,1090\n"
+        self.write("wells.csv", "WELL,BRANCH,X,Y,TVD\n" + rows)
+        wells = self.summary("--well", "wells.csv,name=A,radius=5")["wells"]
+        self.assertEqual([well["name"] for well in wells], ["A", "A:2"])
+
 
 class RunFile(Case):
     RUN = """

@@ -107,16 +107,16 @@ TEST(CellOperations, GridoptsMakesMultnumTheDefaultRegions) {
 }
 
 TEST(CellOperations, NoteARegionWithoutCells) {
-  const Case read = case_of(unit_boxes(1, 1, 1) + "FLUXNUM\n 1 /\nEQUALREG\n SWL 0.2 9 F /\n/\n");
+  const Case read = case_of(unit_boxes(1, 1, 1) + "FLUXNUM\n 1 /\nSWL\n 0 /\nEQUALREG\n SWL 0.2 9 F /\n/\n");
   ASSERT_EQ(read.notes.size(), 1U);
-  EXPECT_EQ(read.notes[0], "case.GRDECL:15: EQUALREG: no cell is in region 9 of FLUXNUM");
+  EXPECT_EQ(read.notes[0], "case.GRDECL:17: EQUALREG: no cell is in region 9 of FLUXNUM");
 }
 
 TEST(CellOperations, NoteBoxesThatSimulatorsReadDifferently) {
   const Case read =
-      case_of(unit_boxes(3, 1, 2) + "EQUALS\n SWL 0.1 1 2 1 1 1 1 /\n SWL 0.2 3 3 /\n SWL 0.3 2 2 /\n/\n");
+      case_of(unit_boxes(3, 1, 2) + "SWL\n 6*0 /\nEQUALS\n SWL 0.1 1 2 1 1 1 1 /\n SWL 0.2 3 3 /\n SWL 0.3 2 2 /\n/\n");
   ASSERT_EQ(read.notes.size(), 1U);
-  EXPECT_NE(read.notes[0].find("case.GRDECL:19: EQUALS: the limits left out"), std::string::npos) << read.notes[0];
+  EXPECT_NE(read.notes[0].find("case.GRDECL:21: EQUALS: the limits left out"), std::string::npos) << read.notes[0];
 }
 
 TEST(CellOperations, AnArrayOfTheTopLayerOnlyHoldsBelow) {
@@ -124,6 +124,15 @@ TEST(CellOperations, AnArrayOfTheTopLayerOnlyHoldsBelow) {
   EXPECT_EQ(read.grid.porosity, (Reals{0.1, 0.2, 0.1, 0.2, 0.1, 0.2}));
   ASSERT_EQ(read.notes.size(), 1U);
   EXPECT_EQ(read.notes[0], "case.GRDECL: PORO is given for the top layer only and holds for those below");
+}
+
+TEST(CellOperations, NoteActiveCellsWithoutAValue) {
+  const Case read =
+      case_of(unit_boxes(3, 1, 1) + "ACTNUM\n 1 1 0 /\nSWL\n 3*0.1 /\nCOPY\n SWL SWCR 1 1 /\n/\nSWU\n 2*0.9 1* /\n");
+  EXPECT_EQ(std::get<Reals>(read.grid.properties.at("SWCR")), (Reals{0.1, 0, 0}));
+  ASSERT_EQ(read.notes.size(), 1U) << "SWU lacks a value in an inactive cell only";
+  EXPECT_NE(read.notes[0].find("SWCR has no value in 1 active cells; 0 stands there"), std::string::npos)
+      << read.notes[0];
 }
 
 TEST(CellArrayRules, CarryDirectionalEndPoints) {

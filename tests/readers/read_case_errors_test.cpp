@@ -213,7 +213,8 @@ const std::vector<std::string> samples{"box.GRDECL", "CONNECTIONS.DATA", "deck/B
 
 std::map<std::string, std::string> sample_with_includes(const std::string& name) {
   const std::string folder = std::string(WELLKNIT_TESTDATA) + "/grdecl/";
-  std::map<std::string, std::string> files{{"case", load_file(folder + name).text}};
+  std::map<std::string, std::string> files;
+  files["case"] = load_file(folder + name).text;
   if (name == "deck/BOX.DATA") {
     files["geometry.inc"] = load_file(folder + "deck/geometry.inc").text;
     files["include/rock.inc"] = load_file(folder + "deck/include/Rock.inc").text;

@@ -165,13 +165,12 @@ MINVALUE
 }
 
 TEST(ReadCase, NotesOnceWhatItDoesNotApply) {
-  const Case read =
-      case_of(unit_boxes(2, 1, 1) +
-              "MULTX\n 2*0.5 /\nEQUALS\n MULTX 2 /\n/\nMULTX\n 2*0.5 /\nMINPV\n 10 /\nNNC\n 1 1 1 2 1 1 0.1 /\n/\n");
-  ASSERT_EQ(read.notes.size(), 3U);
-  EXPECT_EQ(read.notes[0], "case.GRDECL:14: MULTX is read, and not applied to transmissibilities yet");
-  EXPECT_EQ(read.notes[1], "case.GRDECL:21: MINPV is read, and not applied to the active cells yet");
-  EXPECT_EQ(read.notes[2], "case.GRDECL:23: NNC is read, and not applied to connections yet");
+  const Case read = case_of(
+      unit_boxes(2, 1, 1) +
+      "OLDTRAN\nMULTX\n 2*0.5 /\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\nOLDTRAN\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\n");
+  ASSERT_EQ(read.notes.size(), 2U);
+  EXPECT_EQ(read.notes[0], "case.GRDECL:14: OLDTRAN is read, and not applied to transmissibilities yet");
+  EXPECT_EQ(read.notes[1], "case.GRDECL:17: AQUCON is not applied yet");
 }
 
 TEST(ReadCase, PassesOverUnknownKeywordsWithoutMisreadingTheirData) {
@@ -199,6 +198,91 @@ TEST(ReadCase, PassesOverListsThatOpenWithNamesOfArrays) {
       case_of(unit_boxes(1, 1, 1) + "UNHEARD\nPORO 0.25 1 M /\nPERMX 100 1 M /\n/\nCOPYBOX\nPORO 6*1 6*1 /\n/\n");
   EXPECT_TRUE(read.grid.porosity.empty());
   EXPECT_EQ(read.notes.size(), 2U);
+}
+
+TEST(ReadCase, PassesOverGridKeywordsByTheirForm) {
+  // One record, a list, a flag, an array: names of arrays in their data are data.
+  const Case read = case_of("GRID\n" + unit_boxes(2, 1, 1) + R"(RPTGRID
+PORO
+PERMX /
+THPRESFT
+PERMX 10 /
+PORO 2 /
+/
+RPTISOL
+NOGGF
+GRIDFILE
+ 0 1 /
+JFUNC
+ WATER 20 1* 0.5 0.5 XY /
+AQUANCON
+ 1 1 1 1 1 1 1 'I-' /
+/
+MULTREGD
+ 1 2 0.5 /
+/
+EDIT
+REGIONS
+RPTREGS
+SATNUM
+FIPNUM /
+)");
+  EXPECT_TRUE(read.notes.empty());
+  EXPECT_TRUE(read.grid.porosity.empty());
+  EXPECT_TRUE(read.grid.properties.empty());
+}
+
+TEST(ReadCase, NotesOnceWhatItRecognisesAndDoesNotApply) {
+  const Case read = case_of(unit_boxes(2, 1, 1) + R"(PINCHREG
+ 0.1 /
+/
+HALFTRAN
+PERMXX
+ 2*100 /
+DIFFX
+ 2*1 /
+MINNNCT
+ 1E-5 /
+AQUNUM
+ 1 1 1 1 100 /
+/
+PERMXX
+ 2*100 /
+)");
+  ASSERT_EQ(read.notes.size(), 6U);
+  for (const std::string& note : read.notes) EXPECT_NE(note.find(" is not applied yet"), std::string::npos) << note;
+}
+
+TEST(ReadCase, KeepsWhatTheMapIs) {
+  const CornerPointGrid grid = case_of("MAPUNITS\n FEET /\nGRIDUNIT\n METRES MAP /\n" + unit_boxes(1, 1, 1)).grid;
+  EXPECT_EQ(grid.metre_per_map_unit, 0.3048);
+  EXPECT_TRUE(grid.has_map_coordinates);
+  EXPECT_FALSE(case_of(unit_boxes(1, 1, 1)).grid.has_map_coordinates);
+  EXPECT_EQ(case_of(unit_boxes(1, 1, 1)).grid.metre_per_map_unit, 1.0);
+}
+
+TEST(ReadCase, NotesDepthsThatWouldBeHeights) {
+  EXPECT_TRUE(case_of("GDORIENT\n INC DEC INC DOWN LEFT /\n" + unit_boxes(1, 1, 1)).notes.empty());
+  const Case read = case_of("GDORIENT\n INC INC INC UP /\n" + unit_boxes(1, 1, 1));
+  ASSERT_EQ(read.notes.size(), 1U);
+  EXPECT_NE(read.notes[0].find("case.GRDECL:2: GDORIENT says that Z points UP"), std::string::npos);
+}
+
+TEST(ReadCase, TakesASpecgridTwiceAndSkipsWhatOtherSimulatorsSkip) {
+  const Case read =
+      case_of(unit_boxes(1, 1, 1) + "SPECGRID\n 1 1 1 1 F /\nSKIP\nPORO\n x /\nENDSKIP\nSKIP100\nPORO\n y " +
+              "/\nENDSKIP\nSKIP300\nporo 0.25/\nENDSKIP\n");
+  EXPECT_EQ(read.grid.porosity, (Reals{0.25})) << "ECLIPSE 100 reads what SKIP300 encloses";
+  EXPECT_TRUE(read.notes.empty());
+}
+
+TEST(ReadCase, CarriesArraysOfEverySection) {
+  const Case read = case_of("GRID\n" + unit_boxes(1, 1, 1) +
+                            "THCONR\n 2 /\nPROPS\nSWLX-\n 0.1 /\nIKRORGZ\n 0.5 /\nSWATINIT\n 0.3 /\nPRVD\n 1000 100 /\n"
+                            "REGIONS\nKRNUMX\n 2 /\nSOLUTION\nRVW\n 0.01 /\nTEMPI\n 60 /\n");
+  EXPECT_EQ(read.grid.properties.size(), 7U) << "PRVD is a table";
+  EXPECT_EQ(std::get<Integers>(read.grid.properties.at("KRNUMX")), (Integers{2}));
+  EXPECT_EQ(std::get<Reals>(read.grid.properties.at("SWLX-")), (Reals{0.1}));
 }
 
 TEST(ReadCase, ReadsFurtherGridFilesAfterTheCase) {
@@ -247,6 +331,21 @@ TOPS
   EXPECT_NEAR(volume(read.grid), (100 + 300) * 200.0 * 30.0 * 0.3048 * 0.3048 * 0.3048, 1e-6);
   EXPECT_DOUBLE_EQ(read.grid.zcorn.front(), 1000 * 0.3048);
   EXPECT_TRUE(read.grid.properties.empty()) << "DX and TOPS are geometry, no properties";
+}
+
+TEST(ReadCase, ReadsTopsOfEveryLayerWithGapsBetweenThem) {
+  const Case read =
+      case_of("DIMENS\n 1 1 2 /\nEQUALS\n DX 10 /\n DZ 5 /\n TOPS 100 4* 1 1 /\n TOPS 120 4* 2 2 /\n/\nDYV\n 20 /\n");
+  EXPECT_NEAR(volume(read.grid), 2 * 10.0 * 20.0 * 5.0, 1e-9);
+  const std::vector<double> zcorn{100, 100, 100, 100, 105, 105, 105, 105, 120, 120, 120, 120, 125, 125, 125, 125};
+  EXPECT_EQ(read.grid.zcorn, zcorn) << "a gap of 15 m between the layers";
+}
+
+TEST(ReadCase, HoldsCellSizesOfTheTopLayerForAll) {
+  const Case read = case_of(
+      "DIMENS\n 2 1 2 /\nBOX\n 1 2 1 1 1 1 /\nDX\n 10 30 /\nDY\n 2*20 /\nDZ\n 5 6 /\nTOPS\n 100 101 /\nENDBOX\n");
+  EXPECT_NEAR(volume(read.grid), 2 * (10 * 20 * 5 + 30 * 20 * 6), 1e-9);
+  EXPECT_EQ(read.notes.size(), 3U) << "DX, DY and DZ hold for the lower layer";
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ TEST(TrajectoryCsv, FaultsAreNamed) {
   expect_error("MD,X,Y,TVD\n0,0,0,0\n1,0,0\n", "w.csv", 3, "row", "expected 4 fields as in the header, found 3");
   expect_error("MD,X,Y,TVD\n0,0,0,0\n1,,0,1\n", "w.csv", 3, "X", "found nothing");
   expect_error("MD,X,Y\n0,0,0\n", "w.csv", 1, "header", "a header naming the columns");
-  expect_error("MD(ft),X,Y,TVD\n0,0,0,0\n", "w.csv", 1, "header", "expected metres, found the unit 'FT'");
+  expect_error("MD(fathom),X,Y,TVD\n0,0,0,0\n", "w.csv", 1, "header",
+               "expected metres or feet, found the unit 'FATHOM'");
   expect_error("MD,X,Y,TVD\n0,0,0,0\n1,1e300,0,1\n", "w.csv", 3, "X", "a length in metres");
 }
 
@@ -199,10 +200,12 @@ TEST(RmsWells, TakeArcLengthWithoutAnMdLog) {
   EXPECT_EQ(well.trajectory.measured_depth, (std::vector<double>{0, 5, 15}));
 }
 
-TEST(RmsWells, TakeArcLengthWhereTheMdLogIsUndefined) {
-  const std::string text = rms_header + "1\nM_MDEPTH CONT lin\n0 0 0 -999\n0 0 4 1004\n";
-  EXPECT_EQ(one_well(text, "w.w").trajectory.measured_depth, (std::vector<double>{0, 4}));
+TEST(RmsWells, FillInTheMdLogWhereItIsUndefined) {
+  const std::string text = rms_header + "1\nM_MDEPTH CONT lin\n0 0 0 -999\n0 0 4 1004\n0 0 5 -999\n";
+  EXPECT_EQ(one_well(text, "w.w").trajectory.measured_depth, (std::vector<double>{1000, 1004, 1005}));
   EXPECT_EQ(notes_of(text, "w.w").size(), 1U);
+  const std::string undefined = rms_header + "1\nM_MDEPTH CONT lin\n0 0 0 -999\n0 0 4 -999\n";
+  EXPECT_EQ(one_well(undefined, "w.w").trajectory.measured_depth, (std::vector<double>{0, 4})) << "arc length";
 }
 
 TEST(RmsWells, FaultsAreNamed) {
@@ -218,7 +221,6 @@ TEST(RmsWells, FaultsAreNamed) {
 
 TEST(ReadTrajectory, RefusesOtherFiles) {
   expect_error("SPECGRID\n 1 1 1 /\n", "w.grdecl", 0, "", "found a file in the format GRDECL");
-  expect_error("# WELL TRACE FROM PETREL\n", "w.dev", 0, "", "not read yet");
   expect_error("%!\n", "w.xyz", 0, "", "none that is known");
 }
 

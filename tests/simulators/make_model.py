@@ -78,15 +78,17 @@ class Deck:
         self.text("GRID", "INIT", "GRIDFILE", "0 1 /", "SPECGRID", f"{nx} {ny} {nz} 1 F /")
         self.array("COORD", self.coord)
         self.array("ZCORN", self.zcorn)
-        self.array("ACTNUM", (rng.random(shape) > 0.08).astype(int), "%d")
+        # Flow 2022.10 does not bridge thin inactive cells, as the manual and later versions do: none are made.
+        thin = (self.zcorn[:, 1] - self.zcorn[:, 0]).mean(axis=(2, 4)) < 0.5
+        self.array("ACTNUM", (thin | (rng.random(shape) > 0.08)).astype(int), "%d")
         self.array("PORO", rng.uniform(0.05, 0.3, shape))
         self.array("PERMX", np.exp(rng.normal(4, 1, shape)))
         self.text("COPY", "PERMX PERMY /", "PERMX PERMZ /", "/", "MULTIPLY", "PERMY 0.7 /", "PERMZ 0.1 /", "/")
         if self.maybe():
             self.array("NTG", rng.uniform(0.3, 1, shape))
         if self.maybe(0.7):
-            self.text("PINCH", ["/", "0.3 GAP 1* TOPBOT TOP /", "0.3 NOGAP /", "0.001 GAP 1* TOPBOT ALL /"][
-                int(rng.integers(0, 4))])
+            # Not NOGAP: Flow 2022.10 bridges thick cells all the same.
+            self.text("PINCH", ["/", "0.3 GAP 1* TOPBOT TOP /", "0.001 GAP 1* TOPBOT ALL /"][int(rng.integers(0, 3))])
             if self.maybe(0.7):
                 self.text("MINPV", "%.1f /" % rng.uniform(50, 400))
         for keyword in ("MULTX", "MULTY", "MULTZ", "MULTX-", "MULTY-", "MULTZ-"):
@@ -128,7 +130,9 @@ class Deck:
             if self.maybe(0.2):
                 self.text("EQUALS", f"{keyword} 0.75 {self.box()} /", "/")
         if self.maybe(0.3):
-            self.text("EQUALS", f"PORV 1234.5 {self.box()} /", "/")
+            # A pore volume given to a cell without thickness keeps it from being a pinch-out in Flow.
+            flat = (self.zcorn[:, 1] == self.zcorn[:, 0]).all(axis=(2, 4)).any()
+            self.text(*(["MULTIPLY", f"PORV 1.5 {self.box()} /"] if flat else ["EQUALS", f"PORV 1234.5 {self.box()} /"]), "/")
 
     def write(self, path):
         nx, ny, nz = self.n

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The wellknit authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Heights are over the plane through the middle C of the four corners, normal to the quad's area vector A, times |A|.
+// A is normal to both diagonals, so the corners' heights are h, -h, h, -h, and along an edge the height goes from h to
+// -h. A loop with n points whose heights add up to S changes the fan's volume by S / (3 n): points of total height -S
+// undo it (docs/algorithms/host.md).
+
+#include "algorithm/host_balance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace wellknit {
+
+namespace {
+
+/// Change of volume, relative to the smaller cell's, that is left alone.
+constexpr double tolerance = 1e-3;
+/// Height of a point, relative to the corners', that leaves room for others beside it.
+constexpr double usual_height = 0.75;
+constexpr double height_spread = 0.15;
+
+using EdgePiece = std::pair<VertexId, VertexId>;  ///< the smaller id first
+
+struct AddedPoint {
+  double fraction = 0.0;  ///< of the piece, from its first vertex
+  VertexId vertex;
+};
+
+class TopBalancer {
+ public:
+  explicit TopBalancer(HostMesh& mesh) : mesh_(mesh) {}
+
+  std::int64_t balance() {
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+      if (mesh_.faces.axis[FaceId(f)] == Axis::k && mesh_.faces.loop(FaceId(f)).size() > 4) balance(FaceId(f));
+    if (!added_.empty()) rewrite_loops();
+    return count_;
+  }
+
+ private:
+  /// A stretch of the loop from corner to corner.
+  struct Edge {
+    std::vector<VertexId> points;  ///< both corners among them
+  };
+
+  /// The loop's four edges; nothing when it has not four corners.
+  [[nodiscard]] std::vector<Edge> edges_of(FaceId face) const {
+    const auto loop = mesh_.faces.loop(face);
+    const HostCellId cell = mesh_.faces.cells[face][0];
+    const VertexId* const corners = &mesh_.corner_vertex[8 * cell.index()];
+    std::vector<std::size_t> at;
+    for (std::size_t n = 0; n < loop.size(); ++n)
+      if (std::find(corners, corners + 8, loop[n]) != corners + 8) at.push_back(n);
+    if (at.size() != 4) return {};
+    std::vector<Edge> edges(4);
+    for (std::size_t e = 0; e < 4; ++e) {
+      const std::size_t end = e == 3 ? at[0] + loop.size() : at[e + 1];
+      for (std::size_t n = at[e]; n <= end; ++n) edges[e].points.push_back(loop[n % loop.size()]);
+    }
+    return edges;
+  }
+
+  [[nodiscard]] double smaller_volume(FaceId face) const {
+    double volume = mesh_.volume[mesh_.faces.cells[face][0]];
+    const HostCellId other = mesh_.faces.cells[face][1];
+    if (other.is_valid() && mesh_.exists[other] != 0) volume = std::min(volume, mesh_.volume[other]);
+    return volume;
+  }
+
+  void balance(FaceId face) {
+    const auto edges = edges_of(face);
+    if (edges.empty()) return;
+    std::array<Vec3, 4> corner;
+    for (std::size_t e = 0; e < 4; ++e) corner[e] = mesh_.vertices[edges[e].points.front()];
+    const Vec3 middle = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+    const Vec3 area = 0.5 * (corner[2] - corner[0]).cross(corner[3] - corner[1]);
+    const auto height = [&](VertexId v) { return area.dot(mesh_.vertices[v] - middle); };
+    double sum = 0.0;
+    std::size_t longest = 0;
+    for (std::size_t e = 0; e < 4; ++e) {
+      for (std::size_t n = 1; n + 1 < edges[e].points.size(); ++n) sum += height(edges[e].points[n]);
+      if (edges[e].points.size() > edges[longest].points.size()) longest = e;
+    }
+    const double change = sum / (3.0 * static_cast<double>(mesh_.faces.loop(face).size()));
+    if (std::abs(change) <= tolerance * smaller_volume(face)) return;
+    add_points(edges[longest], -sum, height(edges[longest].points.front()));
+  }
+
+  /// Points on a cut edge whose heights add up to `total`; the edge's first corner has the height `first`.
+  void add_points(const Edge& edge, double total, double first) {
+    const auto count = static_cast<std::size_t>(std::ceil(std::abs(total / first) / usual_height));
+    const Vec3 begin = mesh_.vertices[edge.points.front()];
+    const Vec3 along = mesh_.vertices[edge.points.back()] - begin;
+    const double square = along.squaredNorm();
+    const auto fraction_of = [&](VertexId v) { return along.dot(mesh_.vertices[v] - begin) / square; };
+    for (std::size_t n = 0; n < count; ++n) {
+      // Spread evenly around the mean height, so that no two are one point.
+      const double place = count == 1 ? 0.0 : 2.0 * static_cast<double>(n) / static_cast<double>(count - 1) - 1.0;
+      const double mean = total / (first * static_cast<double>(count));
+      const double fraction = 0.5 * (1.0 - (mean + place * height_spread * std::min(1.0, std::abs(mean))));
+      for (std::size_t piece = 0; piece + 1 < edge.points.size(); ++piece) {
+        const double from = fraction_of(edge.points[piece]);
+        const double to = fraction_of(edge.points[piece + 1]);
+        // A point that all but meets a crossing would make a face without extent.
+        const double room = 1e-3 * (to - from);
+        if (!(fraction > from + room) || !(fraction < to - room)) continue;
+        add_point(edge.points[piece], edge.points[piece + 1], (fraction - from) / (to - from));
+        break;
+      }
+    }
+  }
+
+  void add_point(VertexId a, VertexId b, double fraction) {
+    if (b < a) {
+      std::swap(a, b);
+      fraction = 1.0 - fraction;
+    }
+    auto& points = added_[{a, b}];
+    const Vec3 point = (1.0 - fraction) * mesh_.vertices[a] + fraction * mesh_.vertices[b];
+    // The faces above and below one gap may ask for the same.
+    for (const AddedPoint& other : points)
+      if (std::abs(other.fraction - fraction) < 1e-3) return;
+    points.push_back({fraction, mesh_.vertices.push_back(point)});
+    ++count_;
+  }
+
+  /// Every face with a piece of edge that was divided gets the points, in its own direction.
+  void rewrite_loops() {
+    std::vector<std::uint8_t> is_end(mesh_.vertices.size(), 0);
+    for (auto& [piece, points] : added_) {
+      is_end[piece.first.index()] = is_end[piece.second.index()] = 1;
+      std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+    }
+    HostFaces& faces = mesh_.faces;
+    std::vector<std::int64_t> start{0};
+    std::vector<VertexId> vertices;
+    start.reserve(faces.vertex_start.size());
+    vertices.reserve(faces.vertices.size() + 4 * static_cast<std::size_t>(count_));
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto loop = faces.loop(FaceId(f));
+      for (std::size_t n = 0; n < loop.size(); ++n) {
+        const VertexId a = loop[n];
+        const VertexId b = loop[(n + 1) % loop.size()];
+        vertices.push_back(a);
+        if (is_end[a.index()] == 0 || is_end[b.index()] == 0) continue;
+        const auto found = added_.find(a < b ? EdgePiece{a, b} : EdgePiece{b, a});
+        if (found == added_.end()) continue;
+        const auto& points = found->second;
+        for (std::size_t p = 0; p < points.size(); ++p)
+          vertices.push_back(points[a < b ? p : points.size() - 1 - p].vertex);
+      }
+      start.push_back(static_cast<std::int64_t>(vertices.size()));
+    }
+    faces.vertex_start = std::move(start);
+    faces.vertices = std::move(vertices);
+  }
+
+  HostMesh& mesh_;
+  std::map<EdgePiece, std::vector<AddedPoint>> added_;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace
+
+std::int64_t balance_cut_tops(HostMesh& mesh) { return TopBalancer(mesh).balance(); }
+
+}  // namespace wellknit
