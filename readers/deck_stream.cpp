@@ -44,7 +44,9 @@ void DeckStream::push(FileContent content, const std::string& name) {
     throw ParseError({content.path, 0, keyword_.name},
                      {"a deck or a GRDECL file (text)", fmt::format("a file in the format {}", format->name),
                       not_read_advice(*format)});
-  if (content.text.find('\0') != std::string::npos)
+  // A zero further on is no text either, and is met where it stands.
+  static constexpr std::size_t looked_at = std::size_t{1} << 16;
+  if (content.text.substr(0, looked_at).find('\0') != std::string::npos)
     throw ParseError({content.path, 0, keyword_.name},
                      {"a deck or a GRDECL file (text)", "binary data", "write the grid as GRDECL text"});
   add_source(content, name);

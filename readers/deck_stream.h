@@ -104,10 +104,10 @@ class DeckStream {
   /// the '/'. Nothing, and nothing read, otherwise.
   template <class T>
   std::optional<std::vector<T>> plain_array(std::int64_t most, T unset) {
-    const std::string_view text = tokens().array_text();
-    auto values = parse_number_array<T>(text, most, unset);
-    if (values) tokens().skip_array_text(text);
-    return values;
+    auto array = parse_number_array<T>(tokens().rest_of_file(), most, unset);
+    if (!array) return std::nullopt;
+    tokens().skip_array(array->length, array->line_ends);
+    return std::move(array->values);
   }
   /// One value of an array, or nothing at its '/'.
   std::optional<RepeatedToken> next_value();

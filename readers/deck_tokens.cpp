@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "readers/number_array.h"
 #include "readers/text.h"
 
 namespace wellknit {
@@ -129,17 +128,11 @@ DeckToken DeckTokens::next_path() {
   return token;
 }
 
-std::string_view DeckTokens::array_text() const {
-  const std::string_view rest = text_.substr(at_);
-  const std::size_t end = find_array_end(rest);
-  return end == std::string_view::npos ? std::string_view() : rest.substr(0, end + 1);
-}
-
-void DeckTokens::skip_array_text(std::string_view array) {
-  at_ += array.size() - 1;
-  line_ += count_line_ends(array);
-  const std::size_t last_end = array.find_last_of("\n\r");
-  if (last_end != std::string_view::npos) line_start_ = at_ - (array.size() - 1) + last_end + 1;
+void DeckTokens::skip_array(std::size_t length, std::int64_t line_ends) {
+  const std::size_t last_end = text_.substr(at_, length).find_last_of("\n\r");
+  if (last_end != std::string_view::npos) line_start_ = at_ + last_end + 1;
+  at_ += length - 1;
+  line_ += line_ends;
   token_on_line_ = true;
 }
 

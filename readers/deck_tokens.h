@@ -41,10 +41,9 @@ class DeckTokens {
   /// A file name: quoted, or up to a blank with any '/' inside it. Takes the closing '/' too when it is there.
   DeckToken next_path();
 
-  /// From here up to and with the '/' that ends the data; empty when there is none.
-  [[nodiscard]] std::string_view array_text() const;
-  /// To the '/' at the end of that text.
-  void skip_array_text(std::string_view array);
+  [[nodiscard]] std::string_view rest_of_file() const { return text_.substr(at_); }
+  /// To the '/' that ends an array whose text from here has this length and so many ends of lines.
+  void skip_array(std::size_t length, std::int64_t line_ends);
 
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
   [[nodiscard]] std::int64_t line() const { return line_; }

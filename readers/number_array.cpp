@@ -104,27 +104,39 @@ inline ShortNumber read_short(const char* at) {
 inline ShortNumber read_short(const char*) { return {}; }
 #endif
 
-/// One piece of an array. It ends with a character that is no digit.
+/// One piece of an array. It ends with a line, or with the file.
 template <class T>
 class PieceReader {
  public:
   PieceReader(std::string_view text, T unset) : text_(text), at_(text.data()), end_(at_ + text.size()), unset_(unset) {}
 
-  /// Writes the values to `room`. Their number; nothing when there are more or something is not plain.
-  std::optional<std::size_t> read(std::span<T> room) {
+  struct Result {
+    std::size_t values = 0;
+    std::size_t length = 0;  ///< of the text read
+    bool has_ended = false;  ///< a '/' was met; it is part of the length
+  };
+
+  /// Writes the values to `room`. Nothing when there are more or something is not plain.
+  std::optional<Result> read(std::span<T> room) {
     T* out = room.data();
     limit_ = out + room.size();
+    const auto result = [&](bool has_ended) {
+      return Result{static_cast<std::size_t>(out - room.data()), static_cast<std::size_t>(at_ - text_.data()),
+                    has_ended};
+    };
     while (true) {
       while (at_ < end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
-      if (at_ == end_ || *at_ == '/') break;
+      if (at_ == end_) return result(false);
+      if (*at_ == '/') {
+        ++at_;
+        return result(true);
+      }
       if (*at_ == '-' && at_ + 1 < end_ && at_[1] == '-') {
         skip_comment();
       } else if (out = read_entry(out); out == nullptr) {
         return std::nullopt;
       }
     }
-    if (at_ < end_ && at_ + 1 != end_) return std::nullopt;
-    return static_cast<std::size_t>(out - room.data());
   }
 
  private:
@@ -219,7 +231,7 @@ class PieceCutter {
   std::string_view rest_;
 };
 
-/// Fresh memory in pages of 2 MB rather than 4 kB: touching it first costs a third of the time of reading otherwise.
+/// Fresh memory in pages of 2 MB rather than 4 kB: far fewer faults while it is first written.
 template <class T>
 void ask_for_large_pages(std::vector<T>& reserved) {
   static constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
@@ -232,24 +244,59 @@ template <class T>
 struct Piece {
   std::string_view text;
   std::unique_ptr<T[]> values;
-  std::optional<std::size_t> count;
+  std::optional<typename PieceReader<T>::Result> result;
+  std::int64_t line_ends = 0;
 };
 
-/// The array in pieces, read by all threads and joined in their order.
+/// Joins pieces in their order, up to the one in which the array ends.
 template <class T>
-std::optional<std::vector<T>> read_pieces(std::string_view text, std::size_t most, T unset) {
-  std::vector<T> out;
+class PieceJoiner {
+ public:
+  PieceJoiner(NumberArray<T>& out, std::size_t most) : out_(out), most_(most) {}
+
+  void append(const Piece<T>& piece) {
+    if (is_done_) return;
+    const bool fits = piece.result && out_.values.size() + piece.result->values <= most_;
+    if (fits) {
+      out_.values.insert(out_.values.end(), piece.values.get(), piece.values.get() + piece.result->values);
+      out_.length += piece.result->length;
+      out_.line_ends += piece.line_ends;
+      has_ended_ = piece.result->has_ended;
+    }
+    is_done_ = !fits || has_ended_;
+  }
+  /// What follows is of no interest. May be asked while another thread appends.
+  [[nodiscard]] bool is_done() const { return is_done_; }
+  [[nodiscard]] bool has_ended() const { return has_ended_; }
+
+ private:
+  NumberArray<T>& out_;
+  std::size_t most_;
+  std::atomic<bool> is_done_ = false;
+  bool has_ended_ = false;
+};
+
+template <class T>
+void read_piece(Piece<T>& piece, std::size_t room, T unset) {
+  piece.result = PieceReader<T>(piece.text, unset).read({piece.values.get(), room});
+  if (piece.result) piece.line_ends = count_line_ends(piece.text.substr(0, piece.result->length));
+}
+
+/// In pieces, read by all threads and joined in their order.
+template <class T>
+std::optional<NumberArray<T>> read_pieces(std::string_view text, std::size_t most, T unset) {
+  NumberArray<T> out;
   // A value takes two bytes unless it is repeated, so a text that is too short does not make us reserve all.
-  out.reserve(std::min(most, text.size() / 2 + 1));
-  ask_for_large_pages(out);
+  out.values.reserve(std::min(most, text.size() / 2 + 1));
+  ask_for_large_pages(out.values);
   PieceCutter cutter(text);
+  PieceJoiner<T> joiner(out, most);
   const std::size_t room = std::min(most, most_piece_values);
   std::vector<Piece<T>> pieces(static_cast<std::size_t>(2 * oneapi::tbb::this_task_arena::max_concurrency()));
   for (Piece<T>& piece : pieces) piece.values = std::make_unique_for_overwrite<T[]>(room);
   std::size_t next = 0;
-  std::atomic<bool> is_plain = true;
   const auto cut = [&](oneapi::tbb::flow_control& control) -> Piece<T>* {
-    if (cutter.at_end() || !is_plain) {
+    if (cutter.at_end() || joiner.is_done()) {
       control.stop();
       return nullptr;
     }
@@ -258,36 +305,20 @@ std::optional<std::vector<T>> read_pieces(std::string_view text, std::size_t mos
     return &piece;
   };
   const auto read = [unset, room](Piece<T>* piece) {
-    piece->count = PieceReader<T>(piece->text, unset).read({piece->values.get(), room});
+    read_piece(*piece, room, unset);
     return piece;
   };
-  const auto append = [&](Piece<T>* piece) {
-    is_plain = is_plain && piece->count && out.size() + *piece->count <= most;
-    if (is_plain) out.insert(out.end(), piece->values.get(), piece->values.get() + *piece->count);
-  };
+  const auto append = [&](Piece<T>* piece) { joiner.append(*piece); };
   using Mode = oneapi::tbb::filter_mode;
   oneapi::tbb::parallel_pipeline(pieces.size(),
                                  oneapi::tbb::make_filter<void, Piece<T>*>(Mode::serial_in_order, cut) &
                                      oneapi::tbb::make_filter<Piece<T>*, Piece<T>*>(Mode::parallel, read) &
                                      oneapi::tbb::make_filter<Piece<T>*, void>(Mode::serial_in_order, append));
-  if (!is_plain) return std::nullopt;
+  if (!joiner.has_ended()) return std::nullopt;
   return out;
 }
 
 }  // namespace
-
-std::size_t find_array_end(std::string_view text) {
-  std::size_t from = 0;
-  while (true) {
-    const std::size_t slash = text.find('/', from);
-    if (slash == std::string_view::npos) return slash;
-    const std::size_t line = text.substr(0, slash).find_last_of("\n\r", slash);
-    const std::size_t begin = std::max(from, line == std::string_view::npos ? 0 : line + 1);
-    if (text.substr(begin, slash - begin).find("--") == std::string_view::npos) return slash;
-    from = text.find_first_of("\n\r", slash);
-    if (from == std::string_view::npos) return from;
-  }
-}
 
 std::int64_t count_line_ends(std::string_view text) {
   if (text.empty()) return 0;
@@ -310,18 +341,24 @@ std::int64_t count_line_ends(std::string_view text) {
 }
 
 template <class T>
-std::optional<std::vector<T>> parse_number_array(std::string_view text, std::int64_t most, T unset) {
-  if (text.empty() || !ends_number(text.back()) || most < 0) return std::nullopt;
+std::optional<NumberArray<T>> parse_number_array(std::string_view text, std::int64_t most, T unset) {
+  if (most < 0) return std::nullopt;
   const auto limit = static_cast<std::size_t>(most);
-  if (text.size() > piece_bytes) return read_pieces(text, limit, unset);
+  PieceCutter cutter(text);
+  Piece<T> first;
+  first.text = cutter.next();
+  if (first.text.substr(0, piece_bytes).find('/') == std::string_view::npos) return read_pieces(text, limit, unset);
+  // A short array, as most are: no threads, and no more memory than it may fill.
   const std::size_t room = std::min(limit, most_piece_values);
-  const auto values = std::make_unique_for_overwrite<T[]>(room);
-  const auto count = PieceReader<T>(text, unset).read({values.get(), room});
-  if (!count) return std::nullopt;
-  return std::vector<T>(values.get(), values.get() + *count);
+  first.values = std::make_unique_for_overwrite<T[]>(room);
+  read_piece(first, room, unset);
+  if (!first.result) return std::nullopt;
+  if (!first.result->has_ended) return read_pieces(text, limit, unset);  // the '/' stood in a comment
+  return NumberArray<T>{
+      {first.values.get(), first.values.get() + first.result->values}, first.result->length, first.line_ends};
 }
 
-template std::optional<std::vector<double>> parse_number_array(std::string_view, std::int64_t, double);
-template std::optional<std::vector<std::int32_t>> parse_number_array(std::string_view, std::int64_t, std::int32_t);
+template std::optional<NumberArray<double>> parse_number_array(std::string_view, std::int64_t, double);
+template std::optional<NumberArray<std::int32_t>> parse_number_array(std::string_view, std::int64_t, std::int32_t);
 
 }  // namespace wellknit

@@ -13,21 +13,25 @@
 
 namespace wellknit {
 
-/// Offset of the '/' that ends the data at the start of this text, comments passed over; npos when there is none.
-std::size_t find_array_end(std::string_view text);
-
-/// Ends of lines in it: LF, CRLF and CR.
-std::int64_t count_line_ends(std::string_view text);
-
-/// The values of a text that holds numbers, n*value and n* with blanks between, and comments, and ends with a blank or
-/// with the '/'; T is double or std::int32_t. A default (n*) becomes `unset`. Nothing when there is anything else in
-/// it, a number out of range or more values than `most`. Every value is the nearest double to the decimal number. The
-/// result does not depend on the number of threads.
 template <class T>
-std::optional<std::vector<T>> parse_number_array(std::string_view text, std::int64_t most, T unset);
+struct NumberArray {
+  std::vector<T> values;
+  std::size_t length = 0;      ///< of its text, with the '/'
+  std::int64_t line_ends = 0;  ///< in this text
+};
 
-extern template std::optional<std::vector<double>> parse_number_array(std::string_view, std::int64_t, double);
-extern template std::optional<std::vector<std::int32_t>> parse_number_array(std::string_view, std::int64_t,
+/// The array that starts here and ends with a '/': numbers, n*value and n* with blanks between, and comments; T is
+/// double or std::int32_t. A default (n*) becomes `unset`. Nothing when there is anything else in it, a number out of
+/// range, more values than `most`, or no '/'. Every value is the nearest double to the decimal number. The result does
+/// not depend on the number of threads.
+template <class T>
+std::optional<NumberArray<T>> parse_number_array(std::string_view text, std::int64_t most, T unset);
+
+extern template std::optional<NumberArray<double>> parse_number_array(std::string_view, std::int64_t, double);
+extern template std::optional<NumberArray<std::int32_t>> parse_number_array(std::string_view, std::int64_t,
                                                                             std::int32_t);
+
+/// Ends of lines: LF, CRLF and CR.
+std::int64_t count_line_ends(std::string_view text);
 
 }  // namespace wellknit

@@ -21,23 +21,28 @@ namespace {
 constexpr double unset = -777.0;
 constexpr std::int32_t unset_count = -777;
 
+template <class T>
+std::optional<std::vector<T>> values_of(std::string_view text, std::int64_t most, T none) {
+  const auto array = parse_number_array<T>(text, most, none);
+  return array ? std::optional(array->values) : std::nullopt;
+}
 std::optional<std::vector<double>> reals(std::string_view text, std::int64_t most = 1 << 22) {
-  return parse_number_array<double>(text, most, unset);
+  return values_of(text, most, unset);
 }
 std::optional<std::vector<std::int32_t>> integers(std::string_view text, std::int64_t most = 1 << 22) {
-  return parse_number_array<std::int32_t>(text, most, unset_count);
+  return values_of(text, most, unset_count);
 }
 
 TEST(NumberArray, ReadsNumbersRepeatsDefaultsAndComments) {
   EXPECT_EQ(reals("1 -2.5\t+3 2*0.5 3* 1.5D2 -- 9 / 9\r\n .5 5. 1e-3/"),
             (std::vector<double>{1, -2.5, 3, 0.5, 0.5, unset, unset, unset, 150, 0.5, 5, 0.001}));
-  EXPECT_EQ(integers("1 0 2*-3 2* 4.0\n"), (std::vector<std::int32_t>{1, 0, -3, -3, unset_count, unset_count, 4}));
+  EXPECT_EQ(integers("1 0 2*-3 2* 4.0\n/"), (std::vector<std::int32_t>{1, 0, -3, -3, unset_count, unset_count, 4}));
   EXPECT_EQ(reals("/"), std::vector<double>());
 }
 
 TEST(NumberArray, LeavesWhatIsNotPlain) {
-  for (const char* text : {"1 x 2 /", "1 'A' /", "1 / 2 /", "1 0*2 /", "1 -3*2 /", "1.5*2 /", "1 nan /", "1 1e999 /",
-                           "1 2--3 /", "1 2", "", "99999999999999999999*1 /", "1..2 /", "- /", "1 2*3*4 /"})
+  for (const char* text : {"1 x 2 /", "1 'A' /", "1 0*2 /", "1 -3*2 /", "1.5*2 /", "1 nan /", "1 1e999 /", "1 2--3 /",
+                           "1 2", "", "99999999999999999999*1 /", "1..2 /", "- /", "1 2*3*4 /"})
     EXPECT_FALSE(reals(text)) << text;
   EXPECT_FALSE(integers("1 2.5 /"));
   EXPECT_FALSE(integers("2147483648 /"));
@@ -94,11 +99,29 @@ TEST(NumberArray, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one, with_threads(4));
 }
 
-TEST(NumberArray, EndIsTheFirstSlashOutsideComments) {
-  EXPECT_EQ(find_array_end("1 2 /"), 4U);
-  EXPECT_EQ(find_array_end("1 -- a/b\n2 -- c/d\n/"), 18U);
-  EXPECT_EQ(find_array_end("1 -- a/b"), std::string_view::npos);
-  EXPECT_EQ(find_array_end("1 2"), std::string_view::npos);
+TEST(NumberArray, EndsAtTheFirstSlashOutsideComments) {
+  const auto length = [](std::string_view text) {
+    const auto array = parse_number_array<double>(text, 1 << 22, unset);
+    return array ? array->length : 0;
+  };
+  EXPECT_EQ(length("1 2 / 3 /"), 5U);
+  EXPECT_EQ(length("1 -- a/b\n2 -- c/d\n/ rest"), 19U);
+  EXPECT_EQ(length("1 -- a/b"), 0U);
+  const auto array = parse_number_array<double>("1\n2 -- /\r\n3\r/\n", 3, unset);
+  ASSERT_TRUE(array);
+  EXPECT_EQ(array->line_ends, 3);
+}
+
+TEST(NumberArray, LargeOnesEndLikeSmallOnes) {
+  std::string text;
+  for (int n = 0; n < 200'000; ++n) text += "1.25\n";
+  const auto array = parse_number_array<double>(text + "-- 1/2\n/ PORO\n" + text, 1 << 22, unset);
+  ASSERT_TRUE(array);
+  EXPECT_EQ(array->values.size(), 200'000U);
+  EXPECT_EQ(array->length, 5U * 200'000U + 8U);
+  EXPECT_EQ(array->line_ends, 200'001);
+  EXPECT_FALSE(reals(text)) << "no '/'";
+  EXPECT_FALSE(reals(text + "/", 199'999));
 }
 
 TEST(NumberArray, CountsEndsOfLines) {
