@@ -17,6 +17,7 @@
 #include "algorithm/edit_connections.h"
 #include "algorithm/flow_connections.h"
 #include "algorithm/property_transfer.h"
+#include "algorithm/source_pore_volume.h"
 #include "algorithm/well_connections.h"
 #include "algorithm/well_path.h"
 #include "algorithm/well_tube.h"
@@ -75,6 +76,7 @@ class Builder {
     clock_.lap("assembly");
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
+    note_missing_properties();
     note_empty_cells(assembly.mesh);
     note_volumes(assembly);
     const HostMultipliers multipliers(grid_);
@@ -415,6 +417,18 @@ class Builder {
            1;
   }
 
+  /// A grid alone is enough for a mesh, but not for flow.
+  void note_missing_properties() {
+    std::string missing;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (grid_.permeability[axis].empty())
+        missing += fmt::format("{}PERM{}", missing.empty() ? "" : ", ", "XYZ"[axis]);
+    if (!missing.empty())
+      result_.summary.notes.push_back(
+          fmt::format("no {}: transmissibilities and well indices along it are 0; give it with the grid", missing));
+    if (!has_pore_volumes(grid_)) result_.summary.notes.push_back("no PORO: pore volumes are 0; give it with the grid");
+  }
+
   /// Made cells without pores stand in inactive rock: right, but the user should know.
   void note_empty_cells(const Mesh& mesh) {
     if (grid_.porosity.empty()) return;
@@ -449,7 +463,7 @@ class Builder {
         summary.notes.push_back(fmt::format("it has no connections: {}", e.what()));
       }
       summary.connections = static_cast<std::int64_t>(out.connections.size());
-      if (out.connections.empty()) summary.notes.push_back("no active cell is open to it");
+      if (out.connections.empty()) summary.notes.push_back("no cell with permeability is open to it");
       assembly.mesh.wells.push_back(std::move(out));
     }
   }

@@ -41,6 +41,18 @@ Vec3 slack_of(const std::array<Vec3, 8>& c) {
   return slack;
 }
 
+/// Outside of the box around the corners by more than any slack: no need to invert the map.
+bool is_far(const std::array<Vec3, 8>& corners, const Vec3& point) {
+  Vec3 low = corners[0];
+  Vec3 high = corners[0];
+  for (const Vec3& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const double margin = 0.1 * (high - low).maxCoeff();
+  return (point.array() < low.array() - margin).any() || (point.array() > high.array() + margin).any();
+}
+
 double bilinear(const std::array<double, 4>& values, double u, double v) {
   return (1 - v) * ((1 - u) * values[0] + u * values[1]) + v * ((1 - u) * values[2] + u * values[3]);
 }
@@ -141,6 +153,7 @@ std::optional<Vec3> CellLocator::locate_in(HostCellId cell, const Vec3& point) c
   double thickness = 0.0;
   for (std::size_t c = 0; c < 4; ++c) thickness = std::max(thickness, std::abs(corners[c + 4][2] - corners[c][2]));
   if (thickness <= least_thickness) return std::nullopt;
+  if (is_far(corners, point)) return std::nullopt;
   const auto uvw = inverse_trilinear(corners, point);
   if (!uvw) return std::nullopt;
   const Vec3 slack = slack_of(corners);
@@ -149,13 +162,27 @@ std::optional<Vec3> CellLocator::locate_in(HostCellId cell, const Vec3& point) c
   return Vec3(uvw->cwiseMax(0.0).cwiseMin(1.0));
 }
 
+/// The point in this cell, unless it is so near a face that the neighbour may hold it too and have the smaller id.
+std::optional<Location> CellLocator::clearly_inside(HostCellId cell, const Vec3& point) const {
+  constexpr double clear = 1e-6;
+  const auto uvw = locate_in(cell, point);
+  if (!uvw || uvw->minCoeff() <= clear || uvw->maxCoeff() >= 1.0 - clear) return std::nullopt;
+  return Location{cell, *uvw};
+}
+
 std::optional<Location> CellLocator::locate(const Vec3& point, HostCellId hint) const {
   if (!point.allFinite()) return std::nullopt;
   if (hint.is_valid()) {
-    const auto uvw = locate_in(hint, point);
-    // Near a face the neighbour may have the smaller id.
-    constexpr double clear = 1e-6;
-    if (uvw && uvw->minCoeff() > clear && uvw->maxCoeff() < 1.0 - clear) return Location{hint, *uvw};
+    if (auto found = clearly_inside(hint, point)) return found;
+    // The next point asked for is often just across a face.
+    const auto at = grid_.ijk(hint);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const std::int64_t step : {-1, 1}) {
+        auto next = at;
+        next[axis] += step;
+        if (next[axis] < 0 || next[axis] >= grid_.dimensions[axis]) continue;
+        if (auto found = clearly_inside(grid_.cell_id(next[0], next[1], next[2]), point)) return found;
+      }
   }
   if (auto found = search_by_cells(point)) return found;
   return search_by_pillars(point);

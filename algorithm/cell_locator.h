@@ -30,7 +30,8 @@ class CellLocator {
   explicit CellLocator(const CornerPointGrid& grid);
 
   /// The cell that holds the point; the smallest id where several touch there. Nothing outside of the grid and in gaps
-  /// between layers. `hint`: a cell to try first; it saves time and changes the result only where cells overlap.
+  /// between layers. `hint`: a cell to try first, and then its neighbours; it saves time and changes the result only
+  /// where cells overlap.
   [[nodiscard]] std::optional<Location> locate(const Vec3& point, HostCellId hint = {}) const;
 
   /// (u, v, w) of the point in this cell when the cell holds it.
@@ -47,6 +48,7 @@ class CellLocator {
     double bottom;  ///< largest depth
   };
 
+  [[nodiscard]] std::optional<Location> clearly_inside(HostCellId cell, const Vec3& point) const;
   [[nodiscard]] Box column_box(std::int64_t i, std::int64_t j) const;
   [[nodiscard]] std::size_t bin_of(double value, int axis) const;
   void fill_bins();

@@ -271,5 +271,18 @@ TEST(BuildMesh, MeshesTheNearWellExampleOfMrst) {
   EXPECT_EQ(first(violations_of(result.mesh, false)), "");
 }
 
+TEST(BuildMesh, SaysWhatTheGridLacks) {
+  Case source;
+  source.grid = grids::box({2, 2, 2});
+  EXPECT_TRUE(build_mesh(source, {}, {}).summary.notes.empty());
+  source.grid.porosity.clear();
+  source.grid.permeability[1].clear();
+  source.grid.permeability[2].clear();
+  const auto notes = build_mesh(source, {}, {}).summary.notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_EQ(notes[0].substr(0, 15), "no PERMY, PERMZ");
+  EXPECT_EQ(notes[1].substr(0, 7), "no PORO");
+}
+
 }  // namespace
 }  // namespace wellknit

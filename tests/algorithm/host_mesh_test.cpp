@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <map>
+#include <random>
 #include <set>
 
 #include "model/errors.h"
@@ -41,17 +44,35 @@ TEST(HostMesh, IsWatertightOverTheZoo) {
   }
 }
 
+/// A grid of random faults; the number of its fault faces.
+std::int64_t expect_watertight(std::uint32_t seed) {
+  const std::int64_t nz = 1 + seed % 7;
+  const auto grid = grids::random_faults({1 + seed % 3, 1 + seed / 3 % 4, nz}, seed);
+  // A tiny grid may have no active cell at all.
+  if (std::count(grid.active.begin(), grid.active.end(), 1) == 0) return 0;
+  const auto mesh = build_host_mesh(grid);
+  const auto checked = check_host(grid, mesh);
+  EXPECT_TRUE(checked.faults.empty()) << "seed " << seed << ": " << checked.faults.front();
+  EXPECT_LT(checked.worst_openness, 1e-12) << "seed " << seed;
+  return faces_where(mesh, [&](FaceId f) { return mesh.faces.is_fault[f] == 1; });
+}
+
 TEST(HostMesh, IsWatertightOverRandomFaults) {
   std::int64_t fault_faces = 0;
-  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
-    const auto grid = grids::random_faults({3, 3, 4}, seed);
-    const auto mesh = build_host_mesh(grid);
-    const auto checked = check_host(grid, mesh);
-    ASSERT_TRUE(checked.faults.empty()) << "seed " << seed << ": " << checked.faults.front();
-    ASSERT_LT(checked.worst_openness, 1e-12) << "seed " << seed;
-    fault_faces += faces_where(mesh, [&](FaceId f) { return mesh.faces.is_fault[f] == 1; });
+  for (std::uint32_t seed = 1; seed <= 300; ++seed) fault_faces += expect_watertight(seed);
+  EXPECT_GT(fault_faces, 300 * 30);  // else the grids would not try what they are for
+}
+
+/// Other grids at each run; WELLKNIT_RANDOM_GRIDS asks for more of them.
+TEST(HostMesh, IsWatertightOverFreshRandomFaults) {
+  const char* const asked = std::getenv("WELLKNIT_RANDOM_GRIDS");
+  const int count = asked == nullptr ? 200 : std::atoi(asked);
+  const auto first = std::random_device()();
+  std::cout << "seeds from " << first << '\n';
+  for (int n = 0; n < count && !HasFailure(); ++n) {
+    const std::uint32_t seed = first + static_cast<std::uint32_t>(n);
+    expect_watertight(seed);
   }
-  EXPECT_GT(fault_faces, 200 * 100);  // else the grids would not try what they are for
 }
 
 TEST(HostMesh, CountsFacesAndVerticesOfABox) {
@@ -289,10 +310,8 @@ TEST(HostMesh, IsWatertightOnPublicGrids) {
     EXPECT_LT(checked.worst_openness, 1e-12) << path;
     const auto fault_faces = faces_where(mesh, [&](FaceId f) { return mesh.faces.is_fault[f] == 1; });
     EXPECT_EQ(fault_faces > 0, expected.faulted) << path;
-    // Where a fault's crossings stand on a twisted top, the fan around their mean is not the bilinear volume.
-    if (!expected.faulted) {
-      EXPECT_LT(checked.worst_volume, 1e-12) << path;
-    }
+    // Cut sides between skew pillars: the fan around a part's mean is not the bilinear volume.
+    EXPECT_LT(checked.worst_volume, expected.faulted ? 0.02 : 1e-12) << path;
   }
 }
 
