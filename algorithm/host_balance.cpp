@@ -89,12 +89,16 @@ class TopBalancer {
     }
     const double change = sum / (3.0 * static_cast<double>(mesh_.faces.loop(face).size()));
     if (std::abs(change) <= tolerance * smaller_volume(face)) return;
-    add_points(edges[longest], -sum, height(edges[longest].points.front()));
+    add_points(edges[longest], -sum, height(edges[longest].points.front()), mesh_.faces.loop(face).size() - 4);
   }
 
   /// Points on a cut edge whose heights add up to `total`; the edge's first corner has the height `first`.
-  void add_points(const Edge& edge, double total, double first) {
-    const auto count = static_cast<std::size_t>(std::ceil(std::abs(total / first) / usual_height));
+  void add_points(const Edge& edge, double total, double first, std::size_t cut_points) {
+    // k crossings on the edges themselves have at most k times a corner's height. More comes from crossings that bulge
+    // out between skew pillars, over a flat top: no point on an edge undoes that.
+    const double wanted = std::ceil(std::abs(total / first) / usual_height);
+    if (!(wanted <= 2.0 * static_cast<double>(cut_points))) return;
+    const auto count = static_cast<std::size_t>(wanted);
     const Vec3 begin = mesh_.vertices[edge.points.front()];
     const Vec3 along = mesh_.vertices[edge.points.back()] - begin;
     const double square = along.squaredNorm();
