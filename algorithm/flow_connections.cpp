@@ -80,13 +80,12 @@ class Connector {
     const bool is_transition =
         mesh_.cells.kind[a] == CellKind::transition && mesh_.cells.kind[b] == CellKind::transition;
     const double factor = is_transition ? radial_flow_.factor(a, b, points) : 1.0;
-    const double t1 = factor * half(first);
-    const double t2 = factor * half(second);
+    const double t = transmissibility(first, second) * factor;
     const double multiplier = multipliers_.exist() ? multiplier_of(first, second) : 1.0;
     Connections& c = mesh_.connections;
     c.cells.push_back(is_swapped ? std::array{b, a} : std::array{a, b});
     c.face.push_back(face);
-    c.transmissibility.push_back(t1 > 0.0 && t2 > 0.0 ? multiplier / (1.0 / t1 + 1.0 / t2) : 0.0);
+    c.transmissibility.push_back(multiplier * t);
     c.area.push_back(g.area);
     const Vec3 normal = g.area > 0.0 ? Vec3(g.area_vector / g.area) : Vec3::Zero();
     c.normal.push_back(is_swapped ? Vec3(-normal) : normal);
@@ -100,6 +99,17 @@ class Connector {
                      : info.is_fault != 0 ? ConnectionKind::fault
                                           : ConnectionKind::face);
     c.multiplier.push_back(multiplier);
+  }
+
+  /// Without multiplier.
+  [[nodiscard]] double transmissibility(const HalfFace& first, const HalfFace& second) const {
+    if (first.info.host_face.is_valid()) {
+      const auto& known = host_.faces.transmissibility;
+      return known.empty() ? 0.0 : known[first.info.host_face];
+    }
+    const double t1 = half(first);
+    const double t2 = half(second);
+    return t1 > 0.0 && t2 > 0.0 ? 1.0 / (1.0 / t1 + 1.0 / t2) : 0.0;
   }
 
   /// A face of the corner-point grid has its own multiplier. Any other has those of the grid's faces that the line
@@ -172,14 +182,9 @@ class Connector {
     return drop > 0.0 ? n.dot(k.cwiseProduct(n)) * length_along_well(m, at, m.rings) * theta / drop : 0.0;
   }
 
-  /// Host cells see host faces only.
+  /// Beside a transition cell; host cells see host faces only.
   [[nodiscard]] double host_half(const HalfFace& h) const {
-    const HostCellId own = mesh_.cells.source_cell[h.cell];
-    const HostCellId other = h.info.host[0] == own ? h.info.host[1] : h.info.host[0];
-    const auto a = static_cast<std::size_t>(h.info.axis);
-    // Simulators leave the crossings on a top's or base's edges out of its area.
-    const Vec3 area = h.info.host_face.is_valid() ? host_face_area_vector(host_, h.info.host_face) : h.area_vector;
-    return host_half_transmissibility(grid_, own, h.info.axis, grid_.ijk(other)[a] > grid_.ijk(own)[a], area);
+    return host_half_transmissibility(grid_, mesh_.cells.source_cell[h.cell], h.info.axis, h.area_vector);
   }
 
   [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,10 +55,10 @@ class TopBalancer {
   [[nodiscard]] std::vector<Edge> edges_of(FaceId face) const {
     const auto loop = mesh_.faces.loop(face);
     const HostCellId cell = mesh_.faces.cells[face][0];
-    const VertexId* const corners = &mesh_.corner_vertex[8 * cell.index()];
+    const auto corners = mesh_.corners_of(cell);
     std::vector<std::size_t> at;
     for (std::size_t n = 0; n < loop.size(); ++n)
-      if (std::find(corners, corners + 8, loop[n]) != corners + 8) at.push_back(n);
+      if (std::find(corners.begin(), corners.end(), loop[n]) != corners.end()) at.push_back(n);
     if (at.size() != 4) return {};
     std::vector<Edge> edges(4);
     for (std::size_t e = 0; e < 4; ++e) {
@@ -134,35 +136,64 @@ class TopBalancer {
     ++count_;
   }
 
-  /// Every face with a piece of edge that was divided gets the points, in its own direction.
+  /// The loop with the points that its edges got, each in the loop's own direction.
+  [[nodiscard]] std::vector<VertexId> lengthened(const std::vector<std::uint8_t>& is_end,
+                                                 std::span<const VertexId> loop) const {
+    std::vector<VertexId> out;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      const VertexId a = loop[n];
+      const VertexId b = loop[n + 1 == loop.size() ? 0 : n + 1];
+      out.push_back(a);
+      if (is_end[a.index()] == 0 || is_end[b.index()] == 0) continue;
+      const auto found = added_.find(a < b ? EdgePiece{a, b} : EdgePiece{b, a});
+      if (found == added_.end()) continue;
+      const auto& points = found->second;
+      for (std::size_t p = 0; p < points.size(); ++p) out.push_back(points[a < b ? p : points.size() - 1 - p].vertex);
+    }
+    return out;
+  }
+
+  using ChangedLoop = std::pair<std::size_t, std::vector<VertexId>>;  ///< face, all of its new loop
+
+  /// Every face with a piece of edge that was divided gets the points.
   void rewrite_loops() {
     std::vector<std::uint8_t> is_end(mesh_.vertices.size(), 0);
     for (auto& [piece, points] : added_) {
       is_end[piece.first.index()] = is_end[piece.second.index()] = 1;
       std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
     }
-    HostFaces& faces = mesh_.faces;
-    std::vector<std::int64_t> start{0};
-    std::vector<VertexId> vertices;
-    start.reserve(faces.vertex_start.size());
-    vertices.reserve(faces.vertices.size() + 4 * static_cast<std::size_t>(count_));
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      const auto loop = faces.loop(FaceId(f));
-      for (std::size_t n = 0; n < loop.size(); ++n) {
-        const VertexId a = loop[n];
-        const VertexId b = loop[(n + 1) % loop.size()];
-        vertices.push_back(a);
-        if (is_end[a.index()] == 0 || is_end[b.index()] == 0) continue;
-        const auto found = added_.find(a < b ? EdgePiece{a, b} : EdgePiece{b, a});
-        if (found == added_.end()) continue;
-        const auto& points = found->second;
-        for (std::size_t p = 0; p < points.size(); ++p)
-          vertices.push_back(points[a < b ? p : points.size() - 1 - p].vertex);
-      }
-      start.push_back(static_cast<std::int64_t>(vertices.size()));
+    const auto is_marked = [&](VertexId v) { return is_end[v.index()] != 0; };
+    std::vector<ChangedLoop> changed;
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      const auto loop = mesh_.faces.loop(FaceId(f));
+      if (std::count_if(loop.begin(), loop.end(), is_marked) < 2) continue;
+      auto longer = lengthened(is_end, loop);
+      if (longer.size() > loop.size()) changed.emplace_back(f, std::move(longer));
     }
-    faces.vertex_start = std::move(start);
-    faces.vertices = std::move(vertices);
+    put_in(changed);
+  }
+
+  /// The loops behind a changed one move up in place, from the last one backwards.
+  void put_in(const std::vector<ChangedLoop>& changed) {
+    HostFaces& faces = mesh_.faces;
+    std::size_t more = 0;
+    for (const auto& [face, loop] : changed) more += loop.size() - faces.loop(FaceId(face)).size();
+    auto read = static_cast<std::ptrdiff_t>(faces.vertices.size());
+    faces.vertices.resize(faces.vertices.size() + more);
+    auto shift = static_cast<std::ptrdiff_t>(more);
+    std::size_t last = faces.size();
+    for (auto next = changed.rbegin(); next != changed.rend(); ++next) {
+      const auto& [face, loop] = *next;
+      // Faces face + 1 … last - 1 keep their loops.
+      const auto begin = static_cast<std::ptrdiff_t>(faces.vertex_start[face + 1]);
+      std::copy_backward(faces.vertices.begin() + begin, faces.vertices.begin() + read,
+                         faces.vertices.begin() + read + shift);
+      for (std::size_t f = last; f > face; --f) faces.vertex_start[f] += shift;
+      std::copy(loop.rbegin(), loop.rend(), std::make_reverse_iterator(faces.vertices.begin() + begin + shift));
+      read = static_cast<std::ptrdiff_t>(faces.vertex_start[face]);
+      shift -= static_cast<std::ptrdiff_t>(loop.size()) - (begin - read);
+      last = face;
+    }
   }
 
   HostMesh& mesh_;

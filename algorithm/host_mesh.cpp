@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The chain: unique nodes along the pillars (host_pillars), cell volumes, the strips between pillars in the i and in
-// the j direction with their fault polygons (host_strip), and last the tops and bases, which need the strips' crossings
-// on their edges. Each step runs over rows; rows are joined in a fixed order, so the result does not depend on the
-// number of threads. The structure of the input follows D. K. Ponting, "Corner point geometry in reservoir simulation",
-// 1989 (key Ponting1989); the cutting of fault faces is our own (docs/algorithms/host.md).
+// The chain: unique nodes along the pillars (host_pillars); cell volumes and which cells exist; the crossings in the
+// strips between pillars (host_strip); then, row by row, the faces of the strips along i and j and the tops and bases,
+// with their transmissibilities while a row's cells are at hand. Each step runs over rows, whose results are taken in
+// order, so they do not depend on the number of threads. The structure of the input follows D. K. Ponting, "Corner
+// point geometry in reservoir simulation", 1989 (key Ponting1989); the cutting of fault faces is our own
+// (docs/algorithms/host.md).
 
 #include "algorithm/host_mesh.h"
 
@@ -14,10 +15,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "algorithm/host_balance.h"
 #include "algorithm/host_pillars.h"
+#include "algorithm/host_row.h"
 #include "algorithm/host_strip.h"
+#include "algorithm/ordered_pipeline.h"
 #include "algorithm/source_pore_volume.h"
 #include "model/errors.h"
 
@@ -25,196 +30,244 @@ namespace wellknit {
 
 namespace {
 
-/// Everything the steps share. Rows of strips: `rows_i` row j holds strips i = 0 … nx, `rows_j` row j holds i = 0 … nx
-/// - 1.
+/// Everything the steps share. `cuts_i` j holds strips i = 0 … nx, `cuts_j` j holds i = 0 … nx - 1.
 struct Work {
   const CornerPointGrid& grid;
-  PillarNodes pillars;
   HostMesh mesh;
   bool mirrored = false;  ///< i, j, depth are left-handed
   std::vector<HostCellState> states;
-  std::vector<StripFaces> rows_i;
-  std::vector<StripFaces> rows_j;
-  std::vector<HostFaces> rows_k;
+  std::vector<StripCuts> cuts_i;
+  std::vector<StripCuts> cuts_j;
 
   [[nodiscard]] std::int64_t nx() const { return grid.dimensions[0]; }
   [[nodiscard]] std::int64_t ny() const { return grid.dimensions[1]; }
   [[nodiscard]] std::int64_t nz() const { return grid.dimensions[2]; }
+  /// Rows of columns that make a piece of work worth handing out.
+  [[nodiscard]] std::int64_t rows_in_a_piece() const {
+    constexpr std::int64_t cells = 40'000;
+    return std::max<std::int64_t>(1, cells / (nx() * nz()));
+  }
 };
 
-void number_corners(Work& work) {
-  const std::int64_t nx = work.nx();
-  work.mesh.corner_vertex.resize(work.grid.zcorn.size());
-  tbb::parallel_for(std::int64_t{0}, work.ny(), [&](std::int64_t j) {
-    for (std::int64_t place = 0; place < work.nz(); ++place) {
-      VertexId* out = &work.mesh.corner_vertex[8 * work.grid.cell_id(0, j, work.pillars.layer(place)).index()];
-      for (std::int64_t i = 0; i < nx; ++i, out += 8) {
-        for (int corner = 0; corner < 4; ++corner) {
-          const std::int64_t* levels = work.pillars.on_pillar(i + nx * j, corner) + 2 * place;
-          // dk counts with the layers' numbers, levels count downwards.
-          out[corner] = VertexId(levels[work.pillars.upside_down ? 1 : 0]);
-          out[corner + 4] = VertexId(levels[work.pillars.upside_down ? 0 : 1]);
-        }
-      }
-    }
-  });
+/// Volumes of a row's cells, positive where i, j, depth are right-handed; not a number without thickness.
+void measure_row(const Work& work, std::int64_t j, RowValues<double>& volume) {
+  volume.resize(work.mesh.corners);
+  for (std::int64_t i = 0; i < work.nx(); ++i) {
+    const ColumnCorners column(work.mesh.corners, work.mesh.vertices, i, j);
+    double* const out = volume.column(i);
+    for (std::int64_t place = 0; place < work.nz(); ++place)
+      out[place] =
+          column.has_thickness(place)
+              ? bilinear_hexahedron_volume({column.at(0, place, 0), column.at(1, place, 0), column.at(2, place, 0),
+                                            column.at(3, place, 0), column.at(0, place, 1), column.at(1, place, 1),
+                                            column.at(2, place, 1), column.at(3, place, 1)})
+              : std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
-/// Signed volumes; the sign of their sum over active cells tells the grid's handedness.
+/// Volumes; the sign of their sum over active cells tells the grid's handedness.
 void measure(Work& work) {
-  const std::int64_t cells = work.grid.cell_count();
   auto& volume = work.mesh.volume;
-  volume.resize(static_cast<std::size_t>(cells));
-  const std::int64_t row = work.nx();
-  tbb::parallel_for(std::int64_t{0}, cells / row, [&](std::int64_t r) {
-    for (std::int64_t c = r * row; c < (r + 1) * row; ++c) {
-      std::array<Vec3, 8> corners;
-      for (std::size_t n = 0; n < 8; ++n)
-        corners[n] = work.pillars.nodes[work.mesh.corner_vertex[8 * static_cast<std::size_t>(c) + n]];
-      volume[HostCellId(c)] = bilinear_hexahedron_volume(corners);
+  volume.raw().resize(static_cast<std::size_t>(work.grid.cell_count()));
+  std::vector<double> sums(static_cast<std::size_t>(work.ny()), 0.0);
+  tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, work.ny()), [&](const auto& rows) {
+    RowValues<double> row;
+    RowValues<std::uint8_t> active;
+    for (std::int64_t j = rows.begin(); j < rows.end(); ++j) {
+      measure_row(work, j, row);
+      active.read(work.mesh.corners, j, work.grid.active);
+      double& sum = sums[static_cast<std::size_t>(j)];
+      for (std::int64_t i = 0; i < work.nx(); ++i)
+        for (std::int64_t place = 0; place < work.nz(); ++place)
+          if (active.column(i)[place] != 0 && !std::isnan(row.column(i)[place])) sum += row.column(i)[place];
+      row.write(work.mesh.corners, j, volume.raw());
     }
   });
-  double total = 0.0;
-  for (std::int64_t c = 0; c < cells; ++c)
-    if (work.grid.active[static_cast<std::size_t>(c)] != 0) total += volume[HostCellId(c)];
+  const double total = std::accumulate(sums.begin(), sums.end(), 0.0);
   if (total == 0.0) throw InvalidInput("no active cell of the grid has a volume; check COORD, ZCORN and ACTNUM");
-  work.mesh.left_handed = total < 0.0;
-  work.mirrored = work.mesh.left_handed != work.pillars.upside_down;
-  if (work.mesh.left_handed)
-    for (double& v : volume) v = -v;
+  work.mirrored = total < 0.0;
+  work.mesh.left_handed = work.mirrored != work.mesh.corners.upside_down;
 }
 
-bool has_thickness(const HostMesh& mesh, HostCellId cell) {
-  const VertexId* corner = &mesh.corner_vertex[8 * cell.index()];
-  return !std::equal(corner, corner + 4, corner + 4);
+/// What classify() found in one row of cells along i.
+struct RowCounts {
+  std::int64_t folded = 0;  ///< active, with thickness but no positive volume
+  std::int64_t too_small = 0;
+  HostCellId first_folded;
+};
+
+RowCounts classify_row(Work& work, std::int64_t first, bool knows_pore_volumes) {
+  RowCounts counts;
+  for (std::int64_t c = first; c < first + work.nx(); ++c) {
+    const HostCellId cell(c);
+    const bool active = work.grid.active[cell.index()] != 0;
+    const bool has_volume = active && work.mesh.volume[cell] > 0.0;
+    const bool is_too_small =
+        has_volume && knows_pore_volumes && work.mesh.pore_volume[cell] < least_pore_volume(work.grid, cell);
+    counts.too_small += is_too_small ? 1 : 0;
+    const bool exists = has_volume && !is_too_small;
+    work.mesh.exists[cell] = exists ? 1 : 0;
+    work.states[cell.index()] = exists                    ? HostCellState::exists
+                                : active && !is_too_small ? HostCellState::none
+                                                          : HostCellState::inactive;
+  }
+  return counts;
+}
+
+/// Turns the volumes the right way; cells that are folded over have none.
+RowCounts unfold_row(Work& work, std::int64_t first) {
+  RowCounts counts;
+  for (std::int64_t c = first; c < first + work.nx(); ++c) {
+    const HostCellId cell(c);
+    double& volume = work.mesh.volume[cell];
+    if (work.mirrored) volume = -volume;
+    if (volume <= 0.0 && work.grid.active[cell.index()] != 0 && counts.folded++ == 0) counts.first_folded = cell;
+    if (!(volume > 0.0)) volume = 0.0;  // also what is not a number
+  }
+  return counts;
+}
+
+/// `of_row(first cell)` for every row of cells, in parallel; the counts in order.
+template <class OfRow>
+RowCounts count_rows(const Work& work, const OfRow& of_row) {
+  const std::int64_t rows = work.ny() * work.nz();
+  std::vector<RowCounts> counts(static_cast<std::size_t>(rows));
+  tbb::parallel_for(std::int64_t{0}, rows,
+                    [&](std::int64_t r) { counts[static_cast<std::size_t>(r)] = of_row(r * work.nx()); });
+  RowCounts sum;
+  for (const RowCounts& row : counts) {
+    if (sum.folded == 0) sum.first_folded = row.first_folded;
+    sum.folded += row.folded;
+    sum.too_small += row.too_small;
+  }
+  return sum;
 }
 
 void classify(Work& work) {
   const auto cells = static_cast<std::size_t>(work.grid.cell_count());
-  work.states.resize(cells);
-  work.mesh.exists.resize(cells);
-  std::int64_t folded = 0;
-  std::int64_t too_small = 0;
-  HostCellId first_folded;
-  for (std::size_t c = 0; c < cells; ++c) {
-    const HostCellId cell(c);
-    double& volume = work.mesh.volume[cell];
-    const bool thick = has_thickness(work.mesh, cell);
-    const bool active = work.grid.active[c] != 0;
-    if (active && thick && volume <= 0.0 && folded++ == 0) first_folded = cell;
-    if (!thick || volume < 0.0) volume = 0.0;
-  }
+  const RowCounts folded = count_rows(work, [&](std::int64_t first) { return unfold_row(work, first); });
   work.mesh.pore_volume = source_pore_volumes(work.grid, work.mesh.volume);
+  work.states.resize(cells);
+  work.mesh.exists.raw().resize(cells);
   const bool knows_pore_volumes = has_pore_volumes(work.grid);
-  for (std::size_t c = 0; c < cells; ++c) {
-    const HostCellId cell(c);
-    const bool has_volume = work.grid.active[c] != 0 && work.mesh.volume[cell] > 0.0;
-    const bool is_too_small =
-        has_volume && knows_pore_volumes && work.mesh.pore_volume[cell] < least_pore_volume(work.grid, cell);
-    too_small += is_too_small ? 1 : 0;
-    const bool exists = has_volume && !is_too_small;
-    work.mesh.exists[cell] = exists ? 1 : 0;
-    work.states[c] = exists                                      ? HostCellState::exists
-                     : work.grid.active[c] != 0 && !is_too_small ? HostCellState::none
-                                                                 : HostCellState::inactive;
-  }
-  if (too_small > 0)
+  const RowCounts small =
+      count_rows(work, [&](std::int64_t first) { return classify_row(work, first, knows_pore_volumes); });
+  if (small.too_small > 0)
     work.mesh.notes.push_back(
-        fmt::format("{} active cells have less pore volume than MINPV and were left out.", too_small));
-  if (folded == 0) return;
-  const auto [i, j, k] = work.grid.ijk(first_folded);
+        fmt::format("{} active cells have less pore volume than MINPV and were left out.", small.too_small));
+  if (folded.folded == 0) return;
+  const auto [i, j, k] = work.grid.ijk(folded.first_folded);
   work.mesh.notes.push_back(
       fmt::format("{} active cells have thickness but no positive volume and were left out; the first is ({}, {}, {}).",
-                  folded, i + 1, j + 1, k + 1));
+                  folded.folded, i + 1, j + 1, k + 1));
 }
 
-StripSide side_of(const Work& work, std::int64_t i, std::int64_t j, int corner_p, int corner_q) {
+/// `rows`: of the two columns on the strip's sides; null while faces are not written yet.
+StripSide side_of(const Work& work, std::int64_t i, std::int64_t j, int corner_p, int corner_q, const HostRow* row) {
   if (i < 0 || j < 0 || i >= work.nx() || j >= work.ny()) return {};
+  const HostCorners& corners = work.mesh.corners;
   const std::int64_t column = i + work.nx() * j;
-  const auto levels = static_cast<std::size_t>(work.pillars.levels());
-  const std::int64_t layer = work.nx() * work.ny();
-  return {{work.pillars.on_pillar(column, corner_p), levels},
-          {work.pillars.on_pillar(column, corner_q), levels},
-          column + layer * work.pillars.layer(0),
-          work.pillars.upside_down ? -layer : layer};
+  const auto levels = static_cast<std::size_t>(corners.levels());
+  return {{corners.on_pillar(column, corner_p), levels},
+          {corners.on_pillar(column, corner_q), levels},
+          row == nullptr ? HostColumn{} : row->column(i)};
+}
+
+VertexId first_node(const Work& work, std::array<std::int64_t, 2> pillar) {
+  return work.mesh.corners.first[static_cast<std::size_t>(pillar[0] + (work.nx() + 1) * pillar[1])];
+}
+
+Strip strip_between(const Work& work, Axis axis, std::array<std::int64_t, 2> p, std::array<std::int64_t, 2> q,
+                    const std::array<StripSide, 2>& sides) {
+  return {axis, p, q, first_node(work, p), first_node(work, q), sides};
 }
 
 /// Between columns (i - 1, j) and (i, j): pillars p (i, j) and q (i, j + 1).
-Strip strip_i(const Work& work, std::int64_t i, std::int64_t j) {
-  return {Axis::i, {i, j}, {i, j + 1}, {side_of(work, i - 1, j, 1, 3), side_of(work, i, j, 0, 2)}};
+Strip strip_i(const Work& work, std::int64_t i, std::int64_t j, const HostRow* row) {
+  return strip_between(work, Axis::i, {i, j}, {i, j + 1},
+                       {side_of(work, i - 1, j, 1, 3, row), side_of(work, i, j, 0, 2, row)});
 }
 
 /// Between columns (i, j - 1) and (i, j): pillars p (i + 1, j) and q (i, j).
-Strip strip_j(const Work& work, std::int64_t i, std::int64_t j) {
-  return {Axis::j, {i + 1, j}, {i, j}, {side_of(work, i, j - 1, 3, 2), side_of(work, i, j, 1, 0)}};
+Strip strip_j(const Work& work, std::int64_t i, std::int64_t j, const HostRow* before, const HostRow* after) {
+  return strip_between(work, Axis::j, {i + 1, j}, {i, j},
+                       {side_of(work, i, j - 1, 3, 2, before), side_of(work, i, j, 1, 0, after)});
 }
 
-/// Room for a row of faces of four corners, so that vectors do not grow step by step.
-void reserve(HostFaces& faces, std::int64_t count) {
-  const auto n = static_cast<std::size_t>(count);
-  faces.vertex_start.reserve(n + 1);
-  faces.vertices.reserve(4 * n);
-  faces.cells.reserve(n);
-  faces.axis.reserve(n);
-  faces.is_fault.reserve(n);
-  faces.is_pinch.reserve(n);
+/// Adds one strip's crossings to its row's, numbered from 0 there.
+void cut_strip(const Work& work, const Strip& strip, StripOverlay& overlay, StripCuts& out) {
+  if (strip.is_matched()) {
+    out.first_crossing.push_back(StripCuts::matched);
+    out.cut_start.insert(out.cut_start.end(), 2, out.cuts.size());
+    return;
+  }
+  const auto first = static_cast<std::int64_t>(out.crossings.size());
+  overlay.read(strip, first);
+  if (first + overlay.crossing_count() > max_ids)
+    throw InvalidInput("the layers on both sides of a fault cross in too many points to be numbered; check ZCORN");
+  out.first_crossing.push_back(first);
+  overlay.add_crossings(work.grid, strip, work.mesh.vertices, out);
+}
+
+/// Gives the crossings of all rows their ids, after the pillars' nodes.
+void number_crossings(Work& work) {
+  auto& vertices = work.mesh.vertices;
+  std::size_t total = vertices.size();
+  for (const auto* rows : {&work.cuts_i, &work.cuts_j})
+    for (const StripCuts& row : *rows) total += row.crossings.size();
+  if (total > static_cast<std::size_t>(max_ids))
+    throw InvalidInput("the layers on both sides of faults cross in too many points to be numbered; check ZCORN");
+  vertices.reserve(total);
+  for (auto* rows : {&work.cuts_i, &work.cuts_j})
+    for (StripCuts& row : *rows) {
+      row.number_from(VertexId(vertices.size()));
+      vertices.raw().insert(vertices.end(), row.crossings.begin(), row.crossings.end());
+      row.crossings = {};
+    }
 }
 
 void cut_strips(Work& work) {
   const std::int64_t nx = work.nx();
   const std::int64_t ny = work.ny();
-  work.rows_i.resize(static_cast<std::size_t>(ny));
-  work.rows_j.resize(static_cast<std::size_t>(ny + 1));
-  tbb::parallel_for(std::int64_t{0}, 2 * ny + 1, [&](std::int64_t row) {
-    const bool along_i = row < ny;
-    const std::int64_t j = along_i ? row : row - ny;
-    StripFaces& out = (along_i ? work.rows_i : work.rows_j)[static_cast<std::size_t>(j)];
-    reserve(out.faces, (nx + 1) * work.nz());
-    StripCutter cutter(work.grid, work.pillars.nodes, work.states, work.mirrored, out);
-    for (std::int64_t i = 0; i < (along_i ? nx + 1 : nx); ++i)
-      cutter.cut(along_i ? strip_i(work, i, j) : strip_j(work, i, j));
+  work.cuts_i.resize(static_cast<std::size_t>(ny));
+  work.cuts_j.resize(static_cast<std::size_t>(ny + 1));
+  tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, ny + 1), [&](const auto& rows) {
+    StripOverlay overlay;
+    for (std::int64_t j = rows.begin(); j < rows.end(); ++j) {
+      StripCuts& along_j = work.cuts_j[static_cast<std::size_t>(j)];
+      for (std::int64_t i = 0; i < nx; ++i) cut_strip(work, strip_j(work, i, j, nullptr, nullptr), overlay, along_j);
+      if (j == ny) continue;
+      StripCuts& along_i = work.cuts_i[static_cast<std::size_t>(j)];
+      for (std::int64_t i = 0; i <= nx; ++i) cut_strip(work, strip_i(work, i, j, nullptr), overlay, along_i);
+    }
   });
+  number_crossings(work);
 }
 
-/// Gives the crossings of all rows their final numbers, after the pillars' nodes, and makes the list of vertices.
-void number_crossings(Work& work) {
-  const auto nodes = static_cast<std::int64_t>(work.pillars.nodes.size());
-  std::vector<StripFaces*> rows;
-  for (StripFaces& row : work.rows_i) rows.push_back(&row);
-  for (StripFaces& row : work.rows_j) rows.push_back(&row);
-  std::size_t total = work.pillars.nodes.size();
-  for (const StripFaces* row : rows) total += row->crossings.size();
-  work.mesh.vertices = std::move(work.pillars.nodes);
-  work.mesh.vertices.reserve(total);
-  for (StripFaces* row : rows) {
-    const std::int64_t shift = static_cast<std::int64_t>(work.mesh.vertices.size()) - nodes;
-    for (const Vec3& point : row->crossings) work.mesh.vertices.push_back(point);
-    if (shift == 0 || row->crossings.empty()) continue;
-    const auto renumber = [&](VertexId& vertex) {
-      if (vertex.value() >= nodes) vertex = VertexId(vertex.value() + shift);
-    };
-    std::for_each(row->faces.vertices.begin(), row->faces.vertices.end(), renumber);
-    std::for_each(row->cut_vertices.begin(), row->cut_vertices.end(), renumber);
-  }
-}
-
-/// The four nodes of a level of a column, corner di + 2 dj.
-using Horizon = std::array<std::int64_t, 4>;
+/// The ranks of a level of a column, corner di + 2 dj.
+using Horizon = std::array<std::int32_t, 4>;
 
 /// Tops and bases of one row of columns. Their edges carry the crossings of the four strips around the column.
 class HorizonFaces {
  public:
-  HorizonFaces(const Work& work, std::int64_t j, HostFaces& out)
+  HorizonFaces(const Work& work, std::int64_t j, const HostRow& row, HostFaceWriter& writer)
       : work_(work),
         j_(j),
-        row_i_(work.rows_i[static_cast<std::size_t>(j)]),
-        south_(work.rows_j[static_cast<std::size_t>(j)]),
-        north_(work.rows_j[static_cast<std::size_t>(j + 1)]),
-        writer_(out, work.states, work.mirrored) {}
+        row_(row),
+        cuts_i_(work.cuts_i[static_cast<std::size_t>(j)]),
+        south_(work.cuts_j[static_cast<std::size_t>(j)]),
+        north_(work.cuts_j[static_cast<std::size_t>(j + 1)]),
+        writer_(writer) {}
 
   void column(std::int64_t i) {
     i_ = i;
-    has_cuts_ = row_i_.has_cuts(i, 1) || row_i_.has_cuts(i + 1, 0) || south_.has_cuts(i, 1) || north_.has_cuts(i, 0);
+    cells_ = row_.column(i);
+    for (int c = 0; c < 4; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      rank_[at] = work_.mesh.corners.on_pillar(i + work_.nx() * j_, c);
+      first_[at] = work_.mesh.corners.first[work_.mesh.corners.pillar(i, j_, c)];
+    }
+    has_cuts_ = cuts_i_.has_cuts(i, 1) || cuts_i_.has_cuts(i + 1, 0) || south_.has_cuts(i, 1) || north_.has_cuts(i, 0);
     std::int64_t upper = -1;  // the last place with thickness
     for (std::int64_t place = 0; place < work_.nz(); ++place) {
       if (horizon(2 * place) == horizon(2 * place + 1)) continue;
@@ -227,117 +280,184 @@ class HorizonFaces {
  private:
   /// Faces between two places that follow each other with nothing or only flat cells in between; -1: the column ends.
   void between(std::int64_t upper, std::int64_t lower) {
-    const HostCellId from = cell(upper);
-    const HostCellId to = cell(lower);
-    const bool both = writer_.state(from) == HostCellState::exists && writer_.state(to) == HostCellState::exists;
+    const FaceCell from = upper < 0 ? FaceCell{} : cells_.cell(upper);
+    const FaceCell to = lower < 0 ? FaceCell{} : cells_.cell(lower);
+    const bool both = from.state == HostCellState::exists && to.state == HostCellState::exists;
     const bool meet = upper >= 0 && lower >= 0 && horizon(2 * upper + 1) == horizon(2 * lower);
     const bool pinched = lower != upper + 1;
     if (meet && !(both && pinched && !work_.grid.connects_across_pinch)) {
       face(2 * lower, from, to, both && pinched);
       return;
     }
-    if (upper >= 0) face(2 * upper + 1, from, HostCellId{}, false);
-    if (lower >= 0) face(2 * lower, HostCellId{}, to, false);
+    if (upper >= 0) face(2 * upper + 1, from, FaceCell{}, false);
+    if (lower >= 0) face(2 * lower, FaceCell{}, to, false);
   }
 
   /// Round the column's four sides on this level, right-handed about the depth.
-  void face(std::int64_t level, HostCellId from, HostCellId to, bool is_pinch) {
-    if (writer_.state(from) != HostCellState::exists && writer_.state(to) != HostCellState::exists) return;
+  void face(std::int64_t level, const FaceCell& from, const FaceCell& to, bool is_pinch) {
+    if (from.state != HostCellState::exists && to.state != HostCellState::exists) return;
     const Horizon h = horizon(level);
-    writer_.push(h[0]);
+    const std::array<VertexId, 4> corner{node(0, h[0]), node(1, h[1]), node(3, h[3]), node(2, h[2])};
+    writer_.push(corner[0]);
     if (has_cuts_) edge(south_.cuts_of(i_, 1, h[1], h[0]), true);
-    writer_.push(h[1]);
-    if (has_cuts_) edge(row_i_.cuts_of(i_ + 1, 0, h[1], h[3]), false);
-    writer_.push(h[3]);
+    writer_.push(corner[1]);
+    if (has_cuts_) edge(cuts_i_.cuts_of(i_ + 1, 0, h[1], h[3]), false);
+    writer_.push(corner[2]);
     if (has_cuts_) edge(north_.cuts_of(i_, 0, h[3], h[2]), false);
-    writer_.push(h[2]);
-    if (has_cuts_) edge(row_i_.cuts_of(i_, 1, h[0], h[2]), true);
-    writer_.close(from, to, Axis::k, false, is_pinch);
+    writer_.push(corner[3]);
+    if (has_cuts_) edge(cuts_i_.cuts_of(i_, 1, h[0], h[2]), true);
+    writer_.close_horizon(from, to, corner, is_pinch);
   }
 
   void edge(std::span<const VertexId> cuts, bool backwards) {
     const std::size_t n = cuts.size();
-    for (std::size_t c = 0; c < n; ++c) writer_.push(cuts[backwards ? n - 1 - c : c].value());
+    for (std::size_t c = 0; c < n; ++c) writer_.push(cuts[backwards ? n - 1 - c : c]);
   }
 
-  [[nodiscard]] HostCellId cell(std::int64_t place) const {
-    return place < 0 ? HostCellId{} : work_.grid.cell_id(i_, j_, work_.pillars.layer(place));
+  [[nodiscard]] VertexId node(std::size_t corner, std::int32_t rank) const {
+    return VertexId(first_[corner].value() + rank);
   }
   [[nodiscard]] Horizon horizon(std::int64_t level) const {
-    const std::int64_t* first = work_.pillars.on_pillar(i_ + work_.nx() * j_, 0) + level;
-    const std::int64_t step = work_.pillars.levels();
-    return {first[0], first[step], first[2 * step], first[3 * step]};
+    return {rank_[0][level], rank_[1][level], rank_[2][level], rank_[3][level]};
   }
 
   const Work& work_;
   std::int64_t j_;
   std::int64_t i_ = 0;
-  const StripFaces& row_i_;
-  const StripFaces& south_;
-  const StripFaces& north_;
-  HostFaceWriter writer_;
+  const HostRow& row_;
+  const StripCuts& cuts_i_;
+  const StripCuts& south_;
+  const StripCuts& north_;
+  HostFaceWriter& writer_;
+  HostColumn cells_;
+  std::array<const std::int32_t*, 4> rank_{};
+  std::array<VertexId, 4> first_{};
   bool has_cuts_ = false;
 };
 
-void cut_horizons(Work& work) {
-  work.rows_k.resize(static_cast<std::size_t>(work.ny()));
-  tbb::parallel_for(std::int64_t{0}, work.ny(), [&](std::int64_t j) {
-    HostFaces& out = work.rows_k[static_cast<std::size_t>(j)];
-    reserve(out, work.nx() * (work.nz() + 1));
-    HorizonFaces faces(work, j, out);
-    for (std::int64_t i = 0; i < work.nx(); ++i) faces.column(i);
-  });
-}
+/// Faces of some rows, and what is needed to make them.
+struct FacePiece {
+  HostFaces faces;
+  HostRow before;
+  HostRow row;
+  StripOverlay overlay;
 
-/// Where a row's faces and their vertices begin in the whole.
-struct Place {
-  std::size_t face = 0;
-  std::size_t vertex = 0;
+  void clear() {
+    faces.vertex_start.resize(1);
+    faces.vertices.clear();
+    faces.cells.raw().clear();
+    faces.axis.raw().clear();
+    faces.is_fault.raw().clear();
+    faces.is_pinch.raw().clear();
+    faces.transmissibility.raw().clear();
+  }
 };
 
-void copy_row(const HostFaces& row, Place place, HostFaces& all) {
-  const auto at = [](auto& array, std::size_t offset) { return array.begin() + static_cast<std::ptrdiff_t>(offset); };
-  std::copy(row.vertices.begin(), row.vertices.end(), at(all.vertices, place.vertex));
-  std::copy(row.cells.begin(), row.cells.end(), at(all.cells, place.face));
-  std::copy(row.axis.begin(), row.axis.end(), at(all.axis, place.face));
-  std::copy(row.is_fault.begin(), row.is_fault.end(), at(all.is_fault, place.face));
-  std::copy(row.is_pinch.begin(), row.is_pinch.end(), at(all.is_pinch, place.face));
-  std::transform(row.vertex_start.begin() + 1, row.vertex_start.end(), at(all.vertex_start, place.face + 1),
-                 [&](std::int64_t start) { return start + static_cast<std::int64_t>(place.vertex); });
+void add_strip_faces(const Strip& strip, std::int64_t first_crossing, StripOverlay& overlay, HostFaceWriter& writer) {
+  if (first_crossing == StripCuts::matched) return add_matched_faces(strip, writer);
+  overlay.read(strip, first_crossing);
+  overlay.add_faces(strip, writer);
 }
 
-/// All faces: along i, then along j, then along k, row by row.
-void join_rows(Work& work) {
-  std::vector<const HostFaces*> rows;
-  for (const StripFaces& row : work.rows_i) rows.push_back(&row.faces);
-  for (const StripFaces& row : work.rows_j) rows.push_back(&row.faces);
-  for (const HostFaces& row : work.rows_k) rows.push_back(&row);
-  std::vector<Place> places(1);
-  for (const HostFaces* row : rows)
-    places.push_back({places.back().face + row->size(), places.back().vertex + row->vertices.size()});
-  HostFaces& all = work.mesh.faces;
-  all.vertex_start.resize(places.back().face + 1);
-  all.vertices.resize(places.back().vertex);
-  all.cells.resize(places.back().face);
-  all.axis.resize(places.back().face);
-  all.is_fault.resize(places.back().face);
-  all.is_pinch.resize(places.back().face);
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t r) { copy_row(*rows[r], places[r], all); });
+/// The faces along i of rows [begin, end), of the strips before them along j (and after the last row), and their
+/// horizons.
+void make_faces(const Work& work, std::int64_t begin, std::int64_t end, FacePiece& piece) {
+  piece.clear();
+  HostFaceWriter writer(piece.faces, work.mesh.vertices, work.mirrored);
+  const auto read = [&](HostRow& row, std::int64_t j) {
+    row.read(work.grid, work.mesh.corners, work.mesh.vertices, work.states, j);
+  };
+  if (begin > 0) read(piece.row, begin - 1);
+  for (std::int64_t j = begin; j < end; ++j) {
+    std::swap(piece.before, piece.row);
+    if (j < work.ny()) read(piece.row, j);
+    const StripCuts& along_j = work.cuts_j[static_cast<std::size_t>(j)];
+    for (std::int64_t i = 0; i < work.nx(); ++i)
+      add_strip_faces(strip_j(work, i, j, &piece.before, &piece.row),
+                      along_j.first_crossing[static_cast<std::size_t>(i)], piece.overlay, writer);
+    if (j == work.ny()) continue;
+    const StripCuts& along_i = work.cuts_i[static_cast<std::size_t>(j)];
+    for (std::int64_t i = 0; i <= work.nx(); ++i)
+      add_strip_faces(strip_i(work, i, j, &piece.row), along_i.first_crossing[static_cast<std::size_t>(i)],
+                      piece.overlay, writer);
+    HorizonFaces horizons(work, j, piece.row, writer);
+    for (std::int64_t i = 0; i < work.nx(); ++i) horizons.column(i);
+  }
+}
+
+template <class T>
+void append(LargeArray<T>& all, const LargeArray<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void append(HostFaces& all, const HostFaces& more) {
+  if (all.size() + more.size() > static_cast<std::size_t>(max_ids))
+    throw InvalidInput("the grid has too many parts of faces to be numbered; check ZCORN");
+  const auto shift = static_cast<std::int64_t>(all.vertices.size());
+  std::transform(more.vertex_start.begin() + 1, more.vertex_start.end(), std::back_inserter(all.vertex_start),
+                 [&](std::int64_t start) { return start + shift; });
+  append(all.vertices, more.vertices);
+  append(all.cells.raw(), more.cells.raw());
+  append(all.axis.raw(), more.axis.raw());
+  append(all.is_fault.raw(), more.is_fault.raw());
+  append(all.is_pinch.raw(), more.is_pinch.raw());
+  append(all.transmissibility.raw(), more.transmissibility.raw());
+}
+
+/// Room for the faces of a grid without faults and a few more, so that arrays seldom grow. What is not used takes no
+/// memory.
+void reserve(const Work& work, HostFaces& faces) {
+  const auto [nx, ny, nz] = work.grid.dimensions;
+  const std::int64_t plain = (nx + 1) * ny * nz + nx * (ny + 1) * nz + nx * ny * (nz + 1);
+  const auto count = static_cast<std::size_t>(plain + plain / 8);
+  faces.vertex_start.reserve(count + 1);
+  faces.vertices.reserve(4 * count);
+  faces.cells.reserve(count);
+  faces.axis.reserve(count);
+  faces.is_fault.reserve(count);
+  faces.is_pinch.reserve(count);
+  faces.transmissibility.reserve(count);
+}
+
+/// All faces: row by row those along j, along i, and along k.
+void add_faces(Work& work) {
+  HostFaces& faces = work.mesh.faces;
+  reserve(work, faces);
+  run_in_order<FacePiece>(
+      work.ny() + 1, work.rows_in_a_piece(),
+      [&](std::int64_t begin, std::int64_t end, FacePiece& piece) { make_faces(work, begin, end, piece); },
+      [&](std::int64_t /*begin*/, std::int64_t /*end*/, const FacePiece& piece) { append(faces, piece.faces); });
 }
 
 }  // namespace
 
+VertexId HostMesh::corner(HostCellId cell, int di, int dj, int dk) const {
+  const auto [nx, ny, nz] = corners.dimensions;
+  const std::int64_t column = cell.value() % (nx * ny);
+  const std::int64_t place = corners.layer(cell.value() / (nx * ny));
+  const int corner = di + 2 * dj;
+  const std::int64_t level = 2 * place + (corners.upside_down ? 1 - dk : dk);
+  const VertexId first = corners.first[corners.pillar(column % nx, column / nx, corner)];
+  return VertexId(first.value() + corners.on_pillar(column, corner)[level]);
+}
+
+std::array<VertexId, 8> HostMesh::corners_of(HostCellId cell) const {
+  std::array<VertexId, 8> out;
+  for (int c = 0; c < 8; ++c) out[static_cast<std::size_t>(c)] = corner(cell, c & 1, (c >> 1) & 1, c >> 2);
+  return out;
+}
+
 HostMesh build_host_mesh(const CornerPointGrid& grid) {
   validate(grid);
-  Work work{grid, resolve_pillars(grid), {}, false, {}, {}, {}, {}};
-  work.mesh.notes = work.pillars.notes;
-  number_corners(work);
+  Work work{grid, {}, false, {}, {}, {}};
+  PillarNodes pillars = resolve_pillars(grid);
+  work.mesh.vertices = std::move(pillars.nodes);
+  work.mesh.corners = std::move(pillars.corners);
+  work.mesh.notes = std::move(pillars.notes);
   measure(work);
   classify(work);
   cut_strips(work);
-  number_crossings(work);
-  cut_horizons(work);
-  join_rows(work);
+  add_faces(work);
   balance_cut_tops(work.mesh);
   return std::move(work.mesh);
 }

@@ -20,16 +20,42 @@ namespace wellknit {
 /// Axis of the grid that a host face is normal to.
 enum class Axis : std::uint8_t { i = 0, j = 1, k = 2 };
 
+/// Where the corners of all source cells lie on their pillars. The horizons of a column of cells, each a top or a base,
+/// are its levels: 0 the uppermost, 2 nz - 1 the deepest. The nodes of a pillar are vertices with consecutive ids,
+/// downwards: a pillar's ranks compare like depths.
+struct HostCorners {
+  std::array<std::int64_t, 3> dimensions{};
+  bool upside_down = false;     ///< layers are numbered upwards
+  std::vector<VertexId> first;  ///< (nx+1)(ny+1): a pillar's uppermost node
+  /// 8 nx ny nz: rank of level l of corner di + 2 dj of column i + nx j, counted from the pillar's uppermost node, at
+  /// 2 nz (corner + 4 column) + l. Corners whose depths differ by no more than the merge tolerance have one rank.
+  LargeArray<std::int32_t> rank;
+
+  [[nodiscard]] std::int64_t levels() const { return 2 * dimensions[2]; }
+  /// Place in `first` of corner di + 2 dj of column (i, j).
+  [[nodiscard]] std::size_t pillar(std::int64_t i, std::int64_t j, int corner) const {
+    return static_cast<std::size_t>(i + (corner & 1) + (dimensions[0] + 1) * (j + (corner >> 1)));
+  }
+  /// Ranks of a column's levels on one of its pillars, rising; 2 nz of them.
+  [[nodiscard]] const std::int32_t* on_pillar(std::int64_t column, int corner) const {
+    return rank.data() + levels() * (corner + 4 * column);
+  }
+  /// Layer whose cell lies between levels 2 place and 2 place + 1; and the other way round.
+  [[nodiscard]] std::int64_t layer(std::int64_t place) const { return upside_down ? dimensions[2] - 1 - place : place; }
+};
+
 /// Faces that have an active cell of positive volume on at least one side.
 struct HostFaces {
-  std::vector<std::int64_t> vertex_start{0};  ///< size()+1 offsets
-  std::vector<VertexId> vertices;             ///< loops; right-hand normal from cells[0] to cells[1]
+  LargeArray<std::int64_t> vertex_start{0};  ///< size()+1 offsets
+  LargeArray<VertexId> vertices;             ///< loops; right-hand normal from cells[0] to cells[1]
   /// The source cells on both sides. cells[0] is always an active cell; cells[1] may be active, inactive, or invalid
   /// (outside of the grid, or a gap). Two active cells stand in order of their ids.
   IdVector<FaceId, std::array<HostCellId, 2>> cells;
   IdVector<FaceId, Axis> axis;
   IdVector<FaceId, std::uint8_t> is_fault;  ///< 1: a part of a cell's face, cut along a split pillar pair
   IdVector<FaceId, std::uint8_t> is_pinch;  ///< 1: the two cells are neighbours across zero-thickness cells
+  /// m3, NEWTRAN without multipliers (host_transmissibility.h); 0 with one active cell. Empty without permeability.
+  IdVector<FaceId, double> transmissibility;
 
   [[nodiscard]] std::size_t size() const { return cells.size(); }
   [[nodiscard]] std::span<const VertexId> loop(FaceId face) const {
@@ -39,10 +65,8 @@ struct HostFaces {
 };
 
 struct HostMesh {
-  IdVector<VertexId, Vec3> vertices;
-  /// 8 per source cell, inactive ones too: vertex of corner (di, dj, dk) at 8 cell + di + 2 dj + 4 dk. Corners of one
-  /// pillar whose depths differ by no more than the merge tolerance share a vertex.
-  std::vector<VertexId> corner_vertex;
+  IdVector<VertexId, Vec3> vertices;  ///< pillar by pillar, then crossings
+  HostCorners corners;                ///< of all source cells, inactive ones too
   HostFaces faces;
   IdVector<HostCellId, double> volume;        ///< m3, positive: eight corners with bilinear faces; all source cells
   IdVector<HostCellId, double> pore_volume;   ///< m3; see source_pore_volumes()
@@ -50,9 +74,10 @@ struct HostMesh {
   bool left_handed = false;                   ///< i, j, k make a left-handed triple in (x, y, depth)
   std::vector<std::string> notes;             ///< what was mended or looks wrong, one sentence each
 
-  [[nodiscard]] VertexId corner(HostCellId cell, int di, int dj, int dk) const {
-    return corner_vertex[8 * cell.index() + static_cast<std::size_t>(di + 2 * dj + 4 * dk)];
-  }
+  /// Corner (di, dj, dk), each 0 or 1, of any source cell.
+  [[nodiscard]] VertexId corner(HostCellId cell, int di, int dj, int dk) const;
+  /// All eight, (di, dj, dk) at di + 2 dj + 4 dk.
+  [[nodiscard]] std::array<VertexId, 8> corners_of(HostCellId cell) const;
 };
 
 /// Corners of one pillar closer than this are one vertex, m. Decks give three decimals and EGRID files 24 bits.

@@ -1,152 +1,225 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// ZCORN is read once, in its own order, into one short list of levels per column and pillar. A pillar's up to four
-// lists are sorted already, so they are merged, not sorted. Rows of columns and of pillars are independent of each
-// other.
+// ZCORN is read in its own order, one row of columns at a time, into one short list of levels per column and pillar. A
+// pillar's up to four lists are sorted already: equal ones are taken once, different ones are merged, not sorted. Rows
+// of pillars are independent of each other.
 
 #include "algorithm/host_pillars.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
-#include "algorithm/host_mesh.h"
+#include "algorithm/ordered_pipeline.h"
 
 namespace wellknit {
 
 namespace {
 
-/// Cells whose levels had to be moved, of one row of columns.
+bool is_upside_down(const CornerPointGrid& grid) {
+  const std::int64_t layer = 4 * grid.dimensions[0] * grid.dimensions[1];
+  const auto balance_of = [&](const tbb::blocked_range<std::int64_t>& layers, std::int64_t balance) {
+    for (std::int64_t k = layers.begin(); k < layers.end(); ++k) {
+      const double* top = grid.zcorn.data() + 2 * k * layer;
+      std::int64_t down = 0;
+      std::int64_t up = 0;
+      for (std::int64_t c = 0; c < layer; ++c) {
+        down += top[c] < top[c + layer] ? 1 : 0;
+        up += top[c] > top[c + layer] ? 1 : 0;
+      }
+      balance += down - up;
+    }
+    return balance;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<std::int64_t>(0, grid.dimensions[2]), std::int64_t{0}, balance_of,
+                              std::plus<>{}) < 0;
+}
+
+/// The depths of all columns of one row on the pillars of one of its sides, a list of levels for each column and
+/// corner.
+class DepthLists {
+ public:
+  /// Side 0 has the pillars of row j, side 1 those of row j + 1.
+  void read(const CornerPointGrid& grid, bool upside_down, std::int64_t j, int side) {
+    const std::int64_t count = 2 * grid.dimensions[0];
+    levels_ = 2 * grid.dimensions[2];
+    stride_ = levels_ | 1;  // an even length would put all lists into the same few lines of the cache
+    depth_.resize(static_cast<std::size_t>(count * stride_));
+    for (std::int64_t l = 0; l < levels_; ++l) {
+      const std::int64_t k2 = upside_down ? levels_ - 1 - l : l;
+      const double* row = grid.zcorn.data() + count * (2 * j + side + 2 * grid.dimensions[1] * k2);
+      double* to = depth_.data() + l;
+      for (std::int64_t list = 0; list < count; ++list, to += stride_) *to = row[list];
+    }
+    is_mended_ = false;
+    for (std::int64_t list = 0; list < count; ++list) make_rise(depth_.data() + list * stride_);
+  }
+  /// Of column i at its low (0) or high (1) side along i.
+  [[nodiscard]] const double* at(std::int64_t i, int di) const { return depth_.data() + (2 * i + di) * stride_; }
+  [[nodiscard]] bool is_mended() const { return is_mended_; }
+
+ private:
+  void make_rise(double* depth) {
+    for (std::int64_t l = 1; l < levels_; ++l) {
+      if (depth[l] >= depth[l - 1]) continue;
+      is_mended_ = is_mended_ || depth[l - 1] - depth[l] > pillar_merge_tolerance;
+      depth[l] = depth[l - 1];
+    }
+  }
+
+  std::int64_t levels_ = 0;
+  std::int64_t stride_ = 0;
+  std::vector<double> depth_;
+  bool is_mended_ = false;
+};
+
+/// The different lists of levels that meet at one pillar, and where their ranks go.
+struct PillarLists {
+  std::array<const double*, 4> depth{};
+  std::array<std::int32_t*, 4> rank{};
+  std::size_t count = 0;
+};
+
+/// Gives each level its rank and appends the depths of the pillar's nodes.
+void merge(const PillarLists& lists, std::int64_t levels, std::vector<double>& nodes) {
+  const std::size_t first = nodes.size();
+  std::array<std::int64_t, 4> head{};
+  double last = 0.0;
+  std::int32_t rank = -1;
+  for (std::int64_t left = static_cast<std::int64_t>(lists.count) * levels; left > 0; --left) {
+    std::size_t next = 4;
+    for (std::size_t list = 0; list < lists.count; ++list) {
+      if (head[list] == levels) continue;
+      if (next == 4 || lists.depth[list][head[list]] < lists.depth[next][head[next]]) next = list;
+    }
+    const double depth = lists.depth[next][head[next]];
+    if (nodes.size() == first || depth - last > pillar_merge_tolerance) {
+      nodes.push_back(depth);
+      ++rank;
+    }
+    last = depth;
+    lists.rank[next][head[next]++] = rank;
+  }
+}
+
+/// One list alone, the common case.
+void number(const double* depth, std::int32_t* ranks, std::int64_t levels, std::vector<double>& nodes) {
+  nodes.push_back(depth[0]);
+  std::int32_t rank = 0;
+  ranks[0] = 0;
+  for (std::int64_t l = 1; l < levels; ++l) {
+    if (depth[l] - depth[l - 1] > pillar_merge_tolerance) {
+      nodes.push_back(depth[l]);
+      ++rank;
+    }
+    ranks[l] = rank;
+  }
+}
+
+/// Nodes of some rows of pillars.
+struct RowNodes {
+  std::array<DepthLists, 2> lists;  ///< of the row of columns before and after a row of pillars
+  std::vector<double> depth;        ///< of one pillar
+  std::vector<Vec3> nodes;
+  std::vector<std::int64_t> count;  ///< of each pillar
+};
+
+class PillarResolver {
+ public:
+  PillarResolver(const CornerPointGrid& grid, HostCorners& corners) : grid_(grid), corners_(corners) {}
+
+  /// Rows [begin, end) of pillars.
+  void resolve(std::int64_t begin, std::int64_t end, RowNodes& out) {
+    out.nodes.clear();
+    out.count.clear();
+    for (std::int64_t j = begin; j < end; ++j) {
+      if (j > 0) read(out.lists[0], j - 1, 1);
+      if (j < grid_.dimensions[1]) read(out.lists[1], j, 0);
+      for (std::int64_t i = 0; i <= grid_.dimensions[0]; ++i) resolve_pillar(i, j, out);
+    }
+  }
+  [[nodiscard]] bool has_mended() const { return has_mended_; }
+
+ private:
+  void read(DepthLists& lists, std::int64_t j, int side) {
+    lists.read(grid_, corners_.upside_down, j, side);
+    if (lists.is_mended()) has_mended_ = true;
+  }
+
+  void resolve_pillar(std::int64_t i, std::int64_t j, RowNodes& out) {
+    const std::int64_t levels = corners_.levels();
+    PillarLists different;
+    std::array<std::pair<std::int32_t*, std::int32_t*>, 4> same{};  // ranks of an equal list, and their place
+    std::size_t same_count = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      const std::int64_t ci = i - (corner & 1);
+      const std::int64_t cj = j - (corner >> 1);
+      if (ci < 0 || cj < 0 || ci >= grid_.dimensions[0] || cj >= grid_.dimensions[1]) continue;
+      const double* depth = out.lists[cj < j ? 0 : 1].at(ci, corner & 1);
+      std::int32_t* rank = corners_.rank.data() + levels * (corner + 4 * (ci + grid_.dimensions[0] * cj));
+      const auto* known = std::find_if(different.depth.begin(), different.depth.begin() + different.count,
+                                       [&](const double* other) { return std::equal(depth, depth + levels, other); });
+      const auto at = static_cast<std::size_t>(known - different.depth.begin());
+      if (at < different.count) {
+        same[same_count++] = {different.rank[at], rank};
+        continue;
+      }
+      different.depth[different.count] = depth;
+      different.rank[different.count++] = rank;
+    }
+    out.depth.clear();
+    if (different.count == 1)
+      number(different.depth[0], different.rank[0], levels, out.depth);
+    else
+      merge(different, levels, out.depth);
+    for (std::size_t s = 0; s < same_count; ++s) std::copy_n(same[s].first, levels, same[s].second);
+    for (const double depth : out.depth) out.nodes.push_back(grid_.pillar_point(i, j, depth));
+    out.count.push_back(static_cast<std::int64_t>(out.depth.size()));
+  }
+
+  const CornerPointGrid& grid_;
+  HostCorners& corners_;
+  std::atomic<bool> has_mended_ = false;
+};
+
+/// Cells whose levels had to be moved.
 struct Mended {
   std::int64_t reversed = 0;     ///< base above the top
   std::int64_t overlapping = 0;  ///< top above the base of the cell over it
   std::int64_t first_reversed = std::numeric_limits<std::int64_t>::max();
   std::int64_t first_overlapping = std::numeric_limits<std::int64_t>::max();
-
-  void add(const Mended& other) {
-    reversed += other.reversed;
-    overlapping += other.overlapping;
-    first_reversed = std::min(first_reversed, other.first_reversed);
-    first_overlapping = std::min(first_overlapping, other.first_overlapping);
-  }
 };
 
-bool is_upside_down(const CornerPointGrid& grid) {
-  const std::int64_t layer = 4 * grid.dimensions[0] * grid.dimensions[1];
-  std::int64_t balance = 0;
-  for (std::int64_t k = 0; k < grid.dimensions[2]; ++k) {
-    const double* top = grid.zcorn.data() + 2 * k * layer;
-    for (std::int64_t c = 0; c < layer; ++c) balance += (top[c] < top[c + layer]) - (top[c] > top[c + layer]);
-  }
-  return balance < 0;
-}
-
-/// Reads the levels of row j of columns into `depth`, laid out as PillarNodes::level.
-void read_row(const CornerPointGrid& grid, const PillarNodes& out, std::int64_t j, double* depth) {
-  const std::int64_t nx = grid.dimensions[0];
-  const std::int64_t levels = out.levels();
-  for (std::int64_t l = 0; l < levels; ++l) {
-    const std::int64_t k2 = out.upside_down ? levels - 1 - l : l;
-    for (int dj = 0; dj < 2; ++dj) {
-      const double* row = grid.zcorn.data() + 2 * nx * (2 * j + dj + 2 * grid.dimensions[1] * k2);
-      double* to = depth + levels * (2 * dj) + l;
-      for (std::int64_t i = 0; i < nx; ++i) {
-        to[4 * levels * i] = row[2 * i];
-        to[4 * levels * i + levels] = row[2 * i + 1];
-      }
-    }
-  }
-}
-
-/// Makes the levels of row j rise downwards; reports what was more than rounding.
-Mended order_row(const CornerPointGrid& grid, const PillarNodes& out, std::int64_t j, double* depth) {
+/// Counts them as the lists are made to rise; slower than that, and only for grids that have some.
+Mended count_mended(const CornerPointGrid& grid, const HostCorners& corners) {
   Mended mended;
-  const std::int64_t levels = out.levels();
-  for (std::int64_t i = 0; i < grid.dimensions[0]; ++i) {
-    for (std::int64_t l = 1; l < levels; ++l) {
-      double worst = 0.0;
-      for (int corner = 0; corner < 4; ++corner) {
-        double* z = depth + levels * (corner + 4 * i) + l;
-        worst = std::max(worst, z[-1] - z[0]);
-        z[0] = std::max(z[0], z[-1]);
+  std::vector<double> above(static_cast<std::size_t>(4 * grid.dimensions[0] * grid.dimensions[1]));
+  for (std::int64_t l = 0; l < corners.levels(); ++l) {
+    for (std::int64_t j = 0; j < grid.dimensions[1]; ++j) {
+      for (std::int64_t i = 0; i < grid.dimensions[0]; ++i) {
+        const std::int64_t k2 = corners.upside_down ? corners.levels() - 1 - l : l;
+        double worst = 0.0;
+        for (int corner = 0; corner < 4; ++corner) {
+          const double depth = grid.zcorn[grid.zcorn_index({i, j, 0}, corner & 1, corner >> 1, 0) +
+                                          static_cast<std::size_t>(4 * grid.dimensions[0] * grid.dimensions[1] * k2)];
+          double& last = above[static_cast<std::size_t>(4 * (i + grid.dimensions[0] * j) + corner)];
+          if (l > 0) worst = std::max(worst, last - depth);
+          last = l > 0 ? std::max(last, depth) : depth;
+        }
+        if (worst <= pillar_merge_tolerance) continue;
+        const std::int64_t cell = grid.cell_id(i, j, corners.layer(l / 2)).value();
+        (l % 2 == 1 ? mended.reversed : mended.overlapping) += 1;
+        std::int64_t& first = l % 2 == 1 ? mended.first_reversed : mended.first_overlapping;
+        first = std::min(first, cell);
       }
-      if (worst <= pillar_merge_tolerance) continue;
-      const std::int64_t cell = grid.cell_id(i, j, out.layer(l / 2)).value();
-      if (l % 2 == 1) mended.add({1, 0, cell, std::numeric_limits<std::int64_t>::max()});
-      if (l % 2 == 0) mended.add({0, 1, std::numeric_limits<std::int64_t>::max(), cell});
     }
   }
   return mended;
-}
-
-/// The lists of levels that meet at one pillar.
-struct PillarLists {
-  std::array<std::int64_t, 4> start{};  ///< places in PillarNodes::level
-  int count = 0;
-};
-
-PillarLists lists_at(const PillarNodes& out, std::int64_t i, std::int64_t j) {
-  PillarLists lists;
-  for (int corner = 0; corner < 4; ++corner) {
-    const std::int64_t ci = i - (corner & 1);
-    const std::int64_t cj = j - (corner >> 1);
-    if (ci < 0 || cj < 0 || ci >= out.dimensions[0] || cj >= out.dimensions[1]) continue;
-    const std::int64_t column = ci + out.dimensions[0] * cj;
-    lists.start[static_cast<std::size_t>(lists.count++)] = out.levels() * (corner + 4 * column);
-  }
-  return lists;
-}
-
-/// Merges the lists of one pillar: `rank` receives each level's node, counted from the pillar's first, `nodes` their
-/// depths.
-void merge_pillar(const PillarLists& lists, std::int64_t levels, const double* depth, std::int64_t* rank,
-                  std::vector<double>& nodes) {
-  const std::size_t first = nodes.size();
-  std::array<std::int64_t, 4> head{};
-  double last = 0.0;
-  for (std::int64_t left = lists.count * levels; left > 0; --left) {
-    std::size_t next = 4;
-    for (std::size_t list = 0; list < static_cast<std::size_t>(lists.count); ++list) {
-      if (head[list] == levels) continue;
-      if (next == 4 || depth[lists.start[list] + head[list]] < depth[lists.start[next] + head[next]]) next = list;
-    }
-    const std::int64_t at = lists.start[next] + head[next]++;
-    if (nodes.size() == first || depth[at] - last > pillar_merge_tolerance) nodes.push_back(depth[at]);
-    last = depth[at];
-    rank[at] = static_cast<std::int64_t>(nodes.size() - first) - 1;
-  }
-}
-
-/// Nodes of one row of pillars.
-struct PillarRow {
-  std::vector<double> depth;        ///< pillar by pillar
-  std::vector<std::int64_t> start;  ///< nx + 2 offsets into depth
-};
-
-PillarRow merge_row(PillarNodes& out, const std::vector<double>& depth, std::int64_t j) {
-  PillarRow row;
-  row.start.push_back(0);
-  for (std::int64_t i = 0; i <= out.dimensions[0]; ++i) {
-    merge_pillar(lists_at(out, i, j), out.levels(), depth.data(), out.level.data(), row.depth);
-    row.start.push_back(static_cast<std::int64_t>(row.depth.size()));
-  }
-  return row;
-}
-
-/// Numbers a row's nodes from `base` and gives them their places.
-void place_row(const CornerPointGrid& grid, const PillarRow& row, std::int64_t j, std::int64_t base, PillarNodes& out) {
-  for (std::int64_t i = 0; i <= out.dimensions[0]; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    for (std::int64_t n = row.start[at]; n < row.start[at + 1]; ++n)
-      out.nodes[VertexId(base + n)] = grid.pillar_point(i, j, row.depth[static_cast<std::size_t>(n)]);
-    const PillarLists lists = lists_at(out, i, j);
-    for (std::size_t list = 0; list < static_cast<std::size_t>(lists.count); ++list)
-      for (std::int64_t l = 0; l < out.levels(); ++l)
-        out.level[static_cast<std::size_t>(lists.start[list] + l)] += base + row.start[at];
-  }
 }
 
 std::string where(const CornerPointGrid& grid, std::int64_t cell) {
@@ -154,14 +227,13 @@ std::string where(const CornerPointGrid& grid, std::int64_t cell) {
   return fmt::format("({}, {}, {})", i + 1, j + 1, k + 1);
 }
 
-void note(const CornerPointGrid& grid, const Mended& mended, PillarNodes& out) {
-  if (out.upside_down) out.notes.emplace_back("The layers are numbered upwards.");
+void note(const CornerPointGrid& grid, const Mended& mended, std::vector<std::string>& notes) {
   if (mended.reversed > 0)
-    out.notes.push_back(
+    notes.push_back(
         fmt::format("{} cells have corners in reverse order, which were given no thickness; the first is {}.",
                     mended.reversed, where(grid, mended.first_reversed)));
   if (mended.overlapping > 0)
-    out.notes.push_back(
+    notes.push_back(
         fmt::format("{} cells begin above the base of the cell over them and were cut off there; the first is {}.",
                     mended.overlapping, where(grid, mended.first_overlapping)));
 }
@@ -170,32 +242,30 @@ void note(const CornerPointGrid& grid, const Mended& mended, PillarNodes& out) {
 
 PillarNodes resolve_pillars(const CornerPointGrid& grid) {
   PillarNodes out;
-  out.dimensions = grid.dimensions;
-  out.upside_down = is_upside_down(grid);
   const auto [nx, ny, nz] = grid.dimensions;
+  HostCorners& corners = out.corners;
+  corners.dimensions = grid.dimensions;
+  corners.upside_down = is_upside_down(grid);
+  if (corners.upside_down) out.notes.emplace_back("The layers are numbered upwards.");
+  corners.rank.resize(grid.zcorn.size());
+  corners.first.reserve(static_cast<std::size_t>((nx + 1) * (ny + 1)));
+  // Without faults each pillar has nz + 1 nodes.
+  out.nodes.reserve(static_cast<std::size_t>((nx + 1) * (ny + 1) * (nz + 1)));
 
-  std::vector<double> depth(grid.zcorn.size());
-  std::vector<Mended> mended(static_cast<std::size_t>(ny));
-  tbb::parallel_for(std::int64_t{0}, ny, [&, nx = nx](std::int64_t j) {
-    double* row = depth.data() + 4 * out.levels() * nx * j;
-    read_row(grid, out, j, row);
-    mended[static_cast<std::size_t>(j)] = order_row(grid, out, j, row);
-  });
-  Mended all;
-  for (const Mended& row : mended) all.add(row);
-  note(grid, all, out);
-
-  out.level.resize(depth.size());
-  std::vector<PillarRow> rows(static_cast<std::size_t>(ny + 1));
-  tbb::parallel_for(std::int64_t{0}, ny + 1,
-                    [&](std::int64_t j) { rows[static_cast<std::size_t>(j)] = merge_row(out, depth, j); });
-  std::vector<std::int64_t> base{0};
-  for (const PillarRow& row : rows) base.push_back(base.back() + row.start.back());
-  out.nodes.resize(static_cast<std::size_t>(base.back()), Vec3::Zero());
-  tbb::parallel_for(std::int64_t{0}, ny + 1, [&](std::int64_t j) {
-    const auto at = static_cast<std::size_t>(j);
-    place_row(grid, rows[at], j, base[at], out);
-  });
+  PillarResolver resolver(grid, corners);
+  constexpr std::int64_t pillars_in_a_piece = 512;
+  run_in_order<RowNodes>(
+      ny + 1, std::max<std::int64_t>(1, pillars_in_a_piece / (nx + 1)),
+      [&](std::int64_t begin, std::int64_t end, RowNodes& rows) { resolver.resolve(begin, end, rows); },
+      [&](std::int64_t /*begin*/, std::int64_t /*end*/, const RowNodes& rows) {
+        auto next = static_cast<std::int64_t>(out.nodes.size());
+        for (const std::int64_t count : rows.count) {
+          corners.first.emplace_back(next);
+          next += count;
+        }
+        out.nodes.raw().insert(out.nodes.end(), rows.nodes.begin(), rows.nodes.end());
+      });
+  if (resolver.has_mended()) note(grid, count_mended(grid, corners), out.notes);
   return out;
 }
 

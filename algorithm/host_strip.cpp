@@ -3,47 +3,32 @@
 
 // In the strip between pillars p and q every horizon is a straight line from its depth on p to its depth on q, and the
 // lines of one column do not cross. So two lines of different columns cross when, and only when, their nodes stand in
-// opposite order on p and on q; everything below is decided by comparing node numbers, never coordinates, and so fits
-// together whatever the rounding. A region lies between two neighbouring lines of one column: a cell, or nothing. The
-// common part of a region of each column is convex; going round it meets nodes of p, nodes of q, and at most four
-// crossings.
+// opposite order on p and on q; everything below is decided by comparing ranks, never coordinates, and so fits together
+// whatever the rounding. A region lies between two neighbouring lines of one column: a cell, or nothing. The common
+// part of a region of each column is convex; going round it meets nodes of p, nodes of q, and at most four crossings.
 
 #include "algorithm/host_strip.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wellknit {
 
 namespace {
 
-constexpr std::int64_t above_all = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t below_all = std::numeric_limits<std::int64_t>::max();
+constexpr std::int32_t above_all = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t below_all = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
-void HostFaceWriter::close(HostCellId from, HostCellId to, Axis axis, bool is_fault, bool is_pinch) {
-  const auto begin = faces_.vertices.begin() + faces_.vertex_start.back();
-  if (faces_.vertices.end() - begin < 3 ||
-      (state(from) != HostCellState::exists && state(to) != HostCellState::exists)) {
-    faces_.vertices.erase(begin, faces_.vertices.end());
-    return;
-  }
-  bool reversed = mirrored_;
-  if (state(from) != HostCellState::exists || (state(to) == HostCellState::exists && to < from)) {
-    std::swap(from, to);
-    reversed = !reversed;
-  }
-  if (reversed) std::reverse(begin, faces_.vertices.end());
-  if (state(to) == HostCellState::none) to = HostCellId{};
-  faces_.vertex_start.push_back(static_cast<std::int64_t>(faces_.vertices.size()));
-  faces_.cells.push_back({from, to});
-  faces_.axis.push_back(axis);
-  faces_.is_fault.push_back(is_fault ? 1 : 0);
-  faces_.is_pinch.push_back(is_pinch ? 1 : 0);
+bool Strip::is_matched() const {
+  const auto& [a, b] = sides;
+  return a.p.empty() || b.p.empty() ||
+         (std::equal(a.p.begin(), a.p.end(), b.p.begin()) && std::equal(a.q.begin(), a.q.end(), b.q.begin()));
 }
 
-std::span<const VertexId> StripFaces::cuts_of(std::int64_t strip, int side, std::int64_t p, std::int64_t q) const {
+std::span<const VertexId> StripCuts::cuts_of(std::int64_t strip, int side, std::int32_t p, std::int32_t q) const {
   const auto at = static_cast<std::size_t>(2 * strip + side);
   const LineCut* first = cuts.data() + cut_start[at];
   const LineCut* last = cuts.data() + cut_start[at + 1];
@@ -53,62 +38,58 @@ std::span<const VertexId> StripFaces::cuts_of(std::int64_t strip, int side, std:
   return {cut_vertices.data() + found->begin, found->end - found->begin};
 }
 
-StripCutter::StripCutter(const CornerPointGrid& grid, const IdVector<VertexId, Vec3>& nodes,
-                         const std::vector<HostCellState>& states, bool mirrored, StripFaces& out)
-    : grid_(grid), nodes_(nodes), out_(out), writer_(out.faces, states, mirrored) {}
-
-void StripCutter::cut(const Strip& strip) {
-  const auto& [a, b] = strip.sides;
-  const bool one_sided = a.p.empty() || b.p.empty();
-  if (one_sided ||
-      (std::equal(a.p.begin(), a.p.end(), b.p.begin()) && std::equal(a.q.begin(), a.q.end(), b.q.begin()))) {
-    matched(strip);
-    out_.cut_start.push_back(out_.cuts.size());
-    out_.cut_start.push_back(out_.cuts.size());
-  } else {
-    overlaid(strip);
-  }
+void StripCuts::number_from(VertexId first) {
+  for (VertexId& v : cut_vertices) v = VertexId(v.value() + first.value());
+  for (std::int64_t& crossing : first_crossing)
+    if (crossing != matched) crossing += first.value();
 }
 
-/// Both columns have the same lines, or there is only one.
-void StripCutter::matched(const Strip& strip) {
+void add_matched_faces(const Strip& strip, HostFaceWriter& writer) {
   const StripSide& lines = strip.sides[strip.sides[0].p.empty() ? 1 : 0];
+  const bool has_low = !strip.sides[0].p.empty();
+  const bool has_high = !strip.sides[1].p.empty();
   for (std::size_t top = 0; top < lines.p.size(); top += 2) {
-    if (lines.p[top] == lines.p[top + 1] && lines.q[top] == lines.q[top + 1]) continue;
-    std::array<HostCellId, 2> cells;
-    for (std::size_t side = 0; side < 2; ++side)
-      if (!strip.sides[side].p.empty()) cells[side] = strip.sides[side].cell(static_cast<std::int64_t>(top / 2));
-    writer_.push(lines.p[top]);
-    for (std::int64_t node = lines.q[top]; node <= lines.q[top + 1]; ++node) writer_.push(node);
-    for (std::int64_t node = lines.p[top + 1]; node > lines.p[top]; --node) writer_.push(node);
-    writer_.close(cells[0], cells[1], strip.axis, false, false);
+    const std::int32_t p0 = lines.p[top];
+    const std::int32_t p1 = lines.p[top + 1];
+    const std::int32_t q0 = lines.q[top];
+    const std::int32_t q1 = lines.q[top + 1];
+    if (p0 == p1 && q0 == q1) continue;
+    const auto place = static_cast<std::int64_t>(top / 2);
+    const FaceCell from = has_low ? strip.sides[0].column.cell(place) : FaceCell{};
+    const FaceCell to = has_high ? strip.sides[1].column.cell(place) : FaceCell{};
+    if (from.state != HostCellState::exists && to.state != HostCellState::exists) continue;
+    writer.push(strip.on_p(p0));
+    for (std::int32_t rank = q0; rank <= q1; ++rank) writer.push(strip.on_q(rank));
+    for (std::int32_t rank = p1; rank > p0; --rank) writer.push(strip.on_p(rank));
+    writer.close(from, to, strip.axis, false, false);
   }
 }
 
-void StripCutter::Lines::read(const StripSide& side) {
+void StripOverlay::Lines::read(const StripSide& side) {
   p.assign(1, above_all);
   q.assign(1, above_all);
   place.assign(1, -1);
   for (std::size_t level = 0; level < side.p.size(); ++level) {
+    const std::int32_t below = level % 2 == 0 ? static_cast<std::int32_t>(level / 2) : -1;
     if (side.p[level] == p.back() && side.q[level] == q.back()) {
       // The same line again: what lies below it is told by its last level.
-      place.back() = level % 2 == 0 ? static_cast<std::int64_t>(level / 2) : -1;
+      place.back() = below;
       continue;
     }
     p.push_back(side.p[level]);
     q.push_back(side.q[level]);
-    place.push_back(level % 2 == 0 ? static_cast<std::int64_t>(level / 2) : -1);
+    place.push_back(below);
   }
   p.push_back(below_all);
   q.push_back(below_all);
 }
 
-StripCutter::Crossed StripCutter::crossed_by(std::int64_t p, std::int64_t q, const Lines& others) {
-  const auto below = [](const std::vector<std::int64_t>& nodes, std::int64_t node) {
-    return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+StripOverlay::Crossed StripOverlay::crossed_by(std::int32_t p, std::int32_t q, const Lines& others) {
+  const auto below = [](const std::vector<std::int32_t>& ranks, std::int32_t rank) {
+    return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
   };
-  const auto beyond = [](const std::vector<std::int64_t>& nodes, std::int64_t node) {
-    return static_cast<std::size_t>(std::upper_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  const auto beyond = [](const std::vector<std::int32_t>& ranks, std::int32_t rank) {
+    return static_cast<std::size_t>(std::upper_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
   };
   const Crossed falling{beyond(others.p, p), below(others.q, q), true};  // under it on p, over it on q
   const Crossed rising{beyond(others.q, q), below(others.p, p), false};
@@ -117,71 +98,75 @@ StripCutter::Crossed StripCutter::crossed_by(std::int64_t p, std::int64_t q, con
   return {};
 }
 
-Vec3 StripCutter::crossing_point(const Strip& strip, std::size_t line0, std::size_t line1) const {
-  const auto depth = [&](std::int64_t node) { return nodes_[VertexId(node)][2]; };
-  const double p0 = depth(lines_[0].p[line0]);
-  const double q0 = depth(lines_[0].q[line0]);
-  const double at_p = std::abs(p0 - depth(lines_[1].p[line1]));
-  const double at_q = std::abs(q0 - depth(lines_[1].q[line1]));
-  const double s = at_p / (at_p + at_q);
-  const double z = (1.0 - s) * p0 + s * q0;
-  return (1.0 - s) * grid_.pillar_point(strip.pillar_p[0], strip.pillar_p[1], z) +
-         s * grid_.pillar_point(strip.pillar_q[0], strip.pillar_q[1], z);
-}
-
-void StripCutter::find_crossings(const Strip& strip) {
+void StripOverlay::read(const Strip& strip, std::int64_t first_crossing) {
+  for (std::size_t side = 0; side < 2; ++side) lines_[side].read(strip.sides[side]);
   const std::size_t count = lines_[0].p.size();
   crossed_.assign(count, {});
   first_crossing_.assign(count, 0);
+  crossing_count_ = 0;
   for (std::size_t line = 1; line + 1 < count; ++line) {
     crossed_[line] = crossed_by(lines_[0].p[line], lines_[0].q[line], lines_[1]);
-    first_crossing_[line] = static_cast<std::int64_t>(nodes_.size() + out_.crossings.size());
-    for (std::size_t other = crossed_[line].first; other < crossed_[line].last; ++other)
-      out_.crossings.push_back(crossing_point(strip, line, other));
+    first_crossing_[line] = first_crossing + crossing_count_;
+    crossing_count_ += static_cast<std::int64_t>(crossed_[line].last - crossed_[line].first);
   }
 }
 
-std::int64_t StripCutter::crossing(std::size_t line0, std::size_t line1) const {
+std::int64_t StripOverlay::crossing(std::size_t line0, std::size_t line1) const {
   return first_crossing_[line0] + static_cast<std::int64_t>(line1 - crossed_[line0].first);
 }
 
-void StripCutter::write_cuts() {
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t line = 1; line + 1 < lines_[side].p.size(); ++line) {
-      const std::int64_t p = lines_[side].p[line];
-      const std::int64_t q = lines_[side].q[line];
-      const Crossed crossed = side == 0 ? crossed_[line] : crossed_by(p, q, lines_[0]);
-      if (crossed.first == crossed.last) continue;
-      const std::size_t begin = out_.cut_vertices.size();
-      for (std::size_t other = crossed.first; other < crossed.last; ++other)
-        out_.cut_vertices.emplace_back(side == 0 ? crossing(line, other) : crossing(other, line));
-      // A falling line meets the uppermost of the others first.
-      if (!crossed.falls)
-        std::reverse(out_.cut_vertices.begin() + static_cast<std::ptrdiff_t>(begin), out_.cut_vertices.end());
-      out_.cuts.push_back({p, q, begin, out_.cut_vertices.size()});
+void StripOverlay::add_crossings(const CornerPointGrid& grid, const Strip& strip, const IdVector<VertexId, Vec3>& nodes,
+                                 StripCuts& out) const {
+  const auto depth_p = [&](std::int32_t rank) { return nodes[strip.on_p(rank)][2]; };
+  const auto depth_q = [&](std::int32_t rank) { return nodes[strip.on_q(rank)][2]; };
+  for (std::size_t line = 1; line + 1 < lines_[0].p.size(); ++line) {
+    const double p0 = depth_p(lines_[0].p[line]);
+    const double q0 = depth_q(lines_[0].q[line]);
+    for (std::size_t other = crossed_[line].first; other < crossed_[line].last; ++other) {
+      const double at_p = std::abs(p0 - depth_p(lines_[1].p[other]));
+      const double at_q = std::abs(q0 - depth_q(lines_[1].q[other]));
+      const double s = at_p / (at_p + at_q);
+      const double z = (1.0 - s) * p0 + s * q0;
+      out.crossings.emplace_back((1.0 - s) * grid.pillar_point(strip.pillar_p[0], strip.pillar_p[1], z) +
+                                 s * grid.pillar_point(strip.pillar_q[0], strip.pillar_q[1], z));
     }
-    out_.cut_start.push_back(out_.cuts.size());
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    add_cuts(side, out);
+    out.cut_start.push_back(out.cuts.size());
   }
 }
 
-/// The columns have different lines.
-void StripCutter::overlaid(const Strip& strip) {
-  for (std::size_t side = 0; side < 2; ++side) lines_[side].read(strip.sides[side]);
-  find_crossings(strip);
-  write_cuts();
+void StripOverlay::add_cuts(std::size_t side, StripCuts& out) const {
+  for (std::size_t line = 1; line + 1 < lines_[side].p.size(); ++line) {
+    const std::int32_t p = lines_[side].p[line];
+    const std::int32_t q = lines_[side].q[line];
+    const Crossed crossed = side == 0 ? crossed_[line] : crossed_by(p, q, lines_[0]);
+    if (crossed.first == crossed.last) continue;
+    const std::size_t begin = out.cut_vertices.size();
+    for (std::size_t other = crossed.first; other < crossed.last; ++other)
+      out.cut_vertices.emplace_back(side == 0 ? crossing(line, other) : crossing(other, line));
+    // A falling line meets the uppermost of the others first.
+    if (!crossed.falls)
+      std::reverse(out.cut_vertices.begin() + static_cast<std::ptrdiff_t>(begin), out.cut_vertices.end());
+    out.cuts.push_back({p, q, begin, out.cut_vertices.size()});
+  }
+}
+
+void StripOverlay::add_faces(const Strip& strip, HostFaceWriter& writer) const {
   const auto& [a, b] = lines_;
   std::size_t first = 0;
   for (std::size_t ra = 0; ra < a.regions(); ++ra) {
     while (b.p[first + 1] <= a.p[ra] && b.q[first + 1] <= a.q[ra]) ++first;
     for (std::size_t rb = first; rb < b.regions() && (b.p[rb] < a.p[ra + 1] || b.q[rb] < a.q[ra + 1]); ++rb)
-      polygon(strip, ra, rb);
+      add_face(strip, ra, rb, writer);
   }
 }
 
-StripCutter::End StripCutter::end_of(bool at_p, std::size_t region0, std::size_t region1) const {
+StripOverlay::End StripOverlay::end_of(bool at_p, std::size_t region0, std::size_t region1) const {
   const auto& a = at_p ? lines_[0].p : lines_[0].q;
   const auto& b = at_p ? lines_[1].p : lines_[1].q;
-  const auto deeper = [](std::int64_t one, std::int64_t other) { return one > other ? -1 : one < other ? 1 : 0; };
+  const auto deeper = [](std::int32_t one, std::int32_t other) { return one > other ? -1 : one < other ? 1 : 0; };
   End end;
   if (a[region0] > b[region1 + 1]) {  // the common part ends before the pillar, where these two lines cross
     end.on_pillar = false;
@@ -203,7 +188,7 @@ StripCutter::End StripCutter::end_of(bool at_p, std::size_t region0, std::size_t
 }
 
 /// Whether the other side's region covers the whole of this side's.
-bool StripCutter::covers(int side, std::size_t region0, std::size_t region1) const {
+bool StripOverlay::covers(int side, std::size_t region0, std::size_t region1) const {
   const Lines& inner = lines_[side == 0 ? 0 : 1];
   const Lines& outer = lines_[side == 0 ? 1 : 0];
   const std::size_t in = side == 0 ? region0 : region1;
@@ -212,26 +197,30 @@ bool StripCutter::covers(int side, std::size_t region0, std::size_t region1) con
          inner.q[in + 1] <= outer.q[out + 1];
 }
 
-void StripCutter::polygon(const Strip& strip, std::size_t region0, std::size_t region1) {
-  const HostCellId from = strip.sides[0].cell(lines_[0].place[region0]);
-  const HostCellId to = strip.sides[1].cell(lines_[1].place[region1]);
-  const bool from_exists = writer_.state(from) == HostCellState::exists;
-  const bool to_exists = writer_.state(to) == HostCellState::exists;
+void StripOverlay::add_face(const Strip& strip, std::size_t region0, std::size_t region1,
+                            HostFaceWriter& writer) const {
+  const FaceCell from = strip.sides[0].cell(lines_[0].place[region0]);
+  const FaceCell to = strip.sides[1].cell(lines_[1].place[region1]);
+  const bool from_exists = from.state == HostCellState::exists;
+  const bool to_exists = to.state == HostCellState::exists;
   if (!from_exists && !to_exists) return;
 
   const End left = end_of(true, region0, region1);
   const End right = end_of(false, region0, region1);
-  writer_.push(left.low);
-  if (left.upper_line * right.upper_line < 0) writer_.push(crossing(region0, region1));
-  writer_.push(right.low);
+  const auto push_crossing = [&](std::size_t line0, std::size_t line1) {
+    writer.push(VertexId(crossing(line0, line1)));
+  };
+  writer.push(left.on_pillar ? strip.on_p(left.low) : VertexId(left.low));
+  if (left.upper_line * right.upper_line < 0) push_crossing(region0, region1);
+  writer.push(right.on_pillar ? strip.on_q(right.low) : VertexId(right.low));
   if (right.on_pillar)
-    for (std::int64_t node = right.low + 1; node <= right.high; ++node) writer_.push(node);
-  if (left.lower_line * right.lower_line < 0) writer_.push(crossing(region0 + 1, region1 + 1));
+    for (std::int64_t rank = right.low + 1; rank <= right.high; ++rank) writer.push(strip.on_q(rank));
+  if (left.lower_line * right.lower_line < 0) push_crossing(region0 + 1, region1 + 1);
   if (left.on_pillar)
-    for (std::int64_t node = left.high; node > left.low; --node) writer_.push(node);
+    for (std::int64_t rank = left.high; rank > left.low; --rank) writer.push(strip.on_p(rank));
 
   const bool whole = (!from_exists || covers(0, region0, region1)) && (!to_exists || covers(1, region0, region1));
-  writer_.close(from, to, strip.axis, !whole, false);
+  writer.close(from, to, strip.axis, !whole, false);
 }
 
 }  // namespace wellknit

@@ -9,48 +9,48 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <vector>
+#include <numeric>
 
 namespace wellknit {
 
 namespace {
 
-Vec3 mean_of_corners(const std::array<Vec3, 8>& corners) {
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& c : corners) mean += c;
-  return mean / 8.0;
-}
-
-/// Mean of the four corners whose bit `axis` is set (high side) or not.
-Vec3 mean_of_face(const std::array<Vec3, 8>& corners, Axis axis, bool high_side) {
-  const std::size_t bit = std::size_t{1} << static_cast<unsigned>(axis);
-  Vec3 mean = Vec3::Zero();
-  for (std::size_t c = 0; c < 8; ++c)
-    if (((c & bit) != 0) == high_side) mean += corners[c];
-  return mean / 4.0;
+Vec3 scaled(const Vec3& d, double permeability) {
+  const double square = d.squaredNorm();
+  return square > 0.0 ? Vec3(permeability / square * d) : Vec3::Zero();
 }
 
 }  // namespace
 
-Vec3 host_cell_center(const CornerPointGrid& grid, HostCellId cell) { return mean_of_corners(grid.corners(cell)); }
+bool has_permeability(const CornerPointGrid& grid) {
+  return std::any_of(grid.permeability.begin(), grid.permeability.end(), [](const auto& k) { return !k.empty(); });
+}
 
-double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, bool high_side,
-                                  const Vec3& area_vector) {
-  const std::vector<double>& permeability = grid.permeability[static_cast<std::size_t>(axis)];
-  if (permeability.empty()) return 0.0;
+Vec3 host_cell_center(const CornerPointGrid& grid, HostCellId cell) {
   const auto corners = grid.corners(cell);
-  const Vec3 d = mean_of_face(corners, axis, high_side) - mean_of_corners(corners);
-  const double distance2 = d.squaredNorm();
-  if (distance2 == 0.0) return 0.0;
-  const bool lateral = axis != Axis::k;
-  const double ntg = lateral && !grid.net_to_gross.empty() ? grid.net_to_gross[cell.index()] : 1.0;
-  return permeability[cell.index()] * ntg * std::abs(area_vector.dot(d)) / distance2;
+  return std::accumulate(corners.begin(), corners.end(), Vec3(Vec3::Zero())) / 8.0;
+}
+
+std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& x, const std::array<double, 3>& permeability) {
+  // Edges along i, j, k; a mean of four is twice the way from the centre to a face's middle.
+  const Vec3 i = (x[1] - x[0]) + (x[3] - x[2]) + (x[5] - x[4]) + (x[7] - x[6]);
+  const Vec3 j = (x[2] - x[0]) + (x[3] - x[1]) + (x[6] - x[4]) + (x[7] - x[5]);
+  const Vec3 k = (x[4] - x[0]) + (x[5] - x[1]) + (x[6] - x[2]) + (x[7] - x[3]);
+  return {scaled(0.125 * i, permeability[0]), scaled(0.125 * j, permeability[1]), scaled(0.125 * k, permeability[2])};
+}
+
+double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, const Vec3& area_vector) {
+  std::array<double, 3> k{};
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!grid.permeability[a].empty()) k[a] = grid.permeability[a][cell.index()];
+  if (axis != Axis::k && !grid.net_to_gross.empty())
+    k[static_cast<std::size_t>(axis)] *= grid.net_to_gross[cell.index()];
+  return std::abs(area_vector.dot(host_conductances(grid.corners(cell), k)[static_cast<std::size_t>(axis)]));
 }
 
 Vec3 host_face_area_vector(const HostMesh& mesh, FaceId face) {
   const bool lateral = mesh.faces.axis[face] != Axis::k;
-  const std::span corners(&mesh.corner_vertex[8 * mesh.faces.cells[face][0].index()], 8);
+  const auto corners = mesh.corners_of(mesh.faces.cells[face][0]);
   // Newell's sum: the area vector of a closed loop does not depend on how it is cut into triangles.
   Vec3 first = Vec3::Zero();
   Vec3 last = Vec3::Zero();

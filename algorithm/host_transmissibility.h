@@ -11,12 +11,19 @@ namespace wellknit {
 /// Centre of a corner-point cell as simulators take it: the mean of its eight corners.
 Vec3 host_cell_center(const CornerPointGrid& grid, HostCellId cell);
 
+/// False: no transmissibility can be computed.
+bool has_permeability(const CornerPointGrid& grid);
+
+/// By axis: k d / d^2, m, with d from the cell's centre to the middle of its own whole face on the high side; its
+/// product with a part's area vector is the half-transmissibility through the part, on either side (the sign apart,
+/// since the centre is the middle of two opposite faces' middles). Corners as everywhere, di + 2 dj + 4 dk; exchanging
+/// tops and bases changes signs only. 0 where d is 0.
+std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& corners, const std::array<double, 3>& permeability);
+
 /// Half-transmissibility, m3, of `cell` through a face (or part of one) normal to `axis`:
 /// k_axis * ntg (lateral faces only) * |A . d| / d^2, with d from the cell's centre to the mean of the four corners of
-/// the cell's own whole face on that side (high_side: the face towards larger i, j or k), and A the area vector of the
-/// part. 0 where the cell has no permeability.
-double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, bool high_side,
-                                  const Vec3& area_vector);
+/// the cell's own whole face on that side, and A the area vector of the part. 0 where the cell has no permeability.
+double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, const Vec3& area_vector);
 
 /// Area vector, m2, of a host face as simulators take it, for the function above: of its whole loop for lateral faces;
 /// for tops and bases of the four corners alone, since crossings on their edges lie off the straight line where pillars

@@ -33,22 +33,16 @@ std::array<Vec3, 8> CornerPointGrid::corners(HostCellId cell) const {
 }
 
 double bilinear_hexahedron_volume(const std::array<Vec3, 8>& corners) {
-  // Faces with outward loops; the fan around the mean of four corners has the volume of the bilinear patch.
-  static constexpr std::array<std::array<std::size_t, 4>, 6> loops{
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  Vec3 origin = Vec3::Zero();
-  for (const Vec3& c : corners) origin += c / 8.0;
-  double volume = 0.0;
-  for (const auto& loop : loops) {
-    Vec3 mean = Vec3::Zero();
-    for (const std::size_t c : loop) mean += corners[c] / 4.0;
-    for (std::size_t s = 0; s < 4; ++s) {
-      const Vec3 a = corners[loop[s]] - origin;
-      const Vec3 b = corners[loop[(s + 1) % 4]] - origin;
-      volume += (mean - origin).dot(a.cross(b)) / 6.0;
-    }
-  }
-  return volume;
+  // Three determinants, all of differences. With bilinear faces a hexahedron has the volume of the one whose faces are
+  // fans around the means of their corners: Grandy, "Efficient computation of volume of hexahedral cells", 1997.
+  const auto& x = corners;
+  const Vec3 a = x[7] - x[1];
+  const Vec3 b = x[6] - x[0];
+  const Vec3 c = x[7] - x[2];
+  const Vec3 d = x[3] - x[0];
+  const Vec3 e = x[5] - x[0];
+  const Vec3 f = x[7] - x[4];
+  return ((a + b).dot(c.cross(d)) + b.dot((c + e).cross(f)) + a.dot(e.cross(f + d))) / 12.0;
 }
 
 void validate(const CornerPointGrid& grid) {
@@ -58,6 +52,10 @@ void validate(const CornerPointGrid& grid) {
     if (found != static_cast<std::size_t>(expected))
       throw InvalidInput(fmt::format("{} has {} values where the dimensions ask for {}", name, found, expected));
   };
+  // One after the other, so that the product cannot overflow.
+  if (nx > max_cells || ny > max_cells / nx || nz > max_cells / (nx * ny))
+    throw InvalidInput(fmt::format("the grid of {} x {} x {} cells is too large: at most {} cells can be read", nx, ny,
+                                   nz, max_cells));
   const std::int64_t n = grid.cell_count();
   expect("COORD", grid.coord.size(), 6 * (nx + 1) * (ny + 1));
   expect("ZCORN", grid.zcorn.size(), 8 * n);

@@ -71,20 +71,21 @@ inline Element element(const std::array<double, 4>*) { return {H5T_NATIVE_DOUBLE
 inline Element element(const CellKind*) { return {H5T_NATIVE_UINT8, H5T_STD_U8LE, 1}; }
 inline Element element(const ConnectionKind*) { return {H5T_NATIVE_UINT8, H5T_STD_U8LE, 1}; }
 inline Element element(const RadialIndex*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 3}; }
-/// An id is its 64-bit value; "none" is -1 in memory as in the file.
+/// An id has 32 bits in memory and 64 in the file; "none" is -1 in both. A larger one in a file becomes the largest of
+/// 32 bits, which names nothing.
 template <class Tag>
 Element element(const Id<Tag>*) {
-  return {H5T_NATIVE_INT64, H5T_STD_I64LE, 1};
+  return {H5T_NATIVE_INT32, H5T_STD_I64LE, 1};
 }
 template <class Tag>
 Element element(const std::array<Id<Tag>, 2>*) {
-  return {H5T_NATIVE_INT64, H5T_STD_I64LE, 2};
+  return {H5T_NATIVE_INT32, H5T_STD_I64LE, 2};
 }
 /// Wells are few: the file keeps 32 bits a cell for them.
-inline Element element(const WellId*) { return {H5T_NATIVE_INT64, H5T_STD_I32LE, 1}; }
+inline Element element(const WellId*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 1}; }
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(RadialIndex) == 3 * sizeof(std::int32_t) &&
-              sizeof(std::array<CellId, 2>) == 2 * sizeof(std::int64_t));
+              sizeof(std::array<CellId, 2>) == 2 * sizeof(std::int32_t));
 
 /// Schema names that both sides use.
 inline constexpr const char* schema_name = "wellknit-mesh";

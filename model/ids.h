@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// Index types: a face cannot index cells. All are 0-based and 64-bit.
+/// Index types: a face cannot index cells. All are 0-based. They take 32 bits in memory; a grid has at most max_cells
+/// cells, and what is made of it is checked against max_ids.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <limits>
+#include <utility>
+
+#include "model/large_array.h"
 
 namespace wellknit {
 
@@ -16,8 +20,8 @@ template <class Tag>
 class Id {
  public:
   constexpr Id() = default;
-  constexpr explicit Id(std::int64_t value) : value_(value) {}
-  constexpr explicit Id(std::size_t value) : value_(static_cast<std::int64_t>(value)) {}
+  constexpr explicit Id(std::int64_t value) : value_(static_cast<std::int32_t>(value)) {}
+  constexpr explicit Id(std::size_t value) : value_(static_cast<std::int32_t>(value)) {}
   constexpr explicit Id(int value) : value_(value) {}
 
   [[nodiscard]] constexpr std::int64_t value() const { return value_; }
@@ -27,7 +31,7 @@ class Id {
   friend constexpr auto operator<=>(Id, Id) = default;
 
  private:
-  std::int64_t value_ = -1;
+  std::int32_t value_ = -1;
 };
 
 using VertexId = Id<struct VertexTag>;
@@ -37,10 +41,15 @@ using HostCellId = Id<struct HostCellTag>;  ///< corner-point cell i + nx (j + n
 using ConnectionId = Id<struct ConnectionTag>;
 using WellId = Id<struct WellTag>;
 
+/// The most entities of one kind that ids can name.
+inline constexpr std::int64_t max_ids = std::numeric_limits<std::int32_t>::max();
+/// The most cells of a source grid: with some eight vertices a cell in the worst case ids still suffice.
+inline constexpr std::int64_t max_cells = 250'000'000;
+
 /// What stands on the other side of a face of the outer boundary.
 inline constexpr CellId no_cell{};
 
-/// A std::vector that only its own kind of id can index.
+/// An array that only its own kind of id can index.
 template <class IdType, class T>
 class IdVector {
  public:
@@ -62,11 +71,11 @@ class IdVector {
   [[nodiscard]] auto begin() const { return data_.begin(); }
   [[nodiscard]] auto end() const { return data_.end(); }
   /// The plain array, for writers and loops over everything.
-  [[nodiscard]] const std::vector<T>& raw() const { return data_; }
-  [[nodiscard]] std::vector<T>& raw() { return data_; }
+  [[nodiscard]] const LargeArray<T>& raw() const { return data_; }
+  [[nodiscard]] LargeArray<T>& raw() { return data_; }
 
  private:
-  std::vector<T> data_;
+  LargeArray<T> data_;
 };
 
 }  // namespace wellknit

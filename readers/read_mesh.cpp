@@ -45,8 +45,8 @@ class MeshFileReader {
     return H5Lexists(file_.get(), object.c_str(), H5P_DEFAULT) > 0;
   }
 
-  template <class T>
-  void array(const std::string& name, std::vector<T>& values) const {
+  template <class Array>
+  void array(const std::string& name, Array& values) const {
     const hdf5::Element layout = hdf5::element(values.data());
     const Handle set = open_dataset(name);
     check_type(name, set, layout);
@@ -160,14 +160,16 @@ class MeshFileReader {
     return attribute;
   }
 
-  /// Numbers of the same class, and integers that fit: 64-bit values may not be squeezed into 32 bits unseen.
+  /// Numbers of the same class, and integers that fit: 64-bit values may not be squeezed into 32 bits unseen. Ids have
+  /// 64 bits in the file; one that needs more than 32 becomes the largest of these, which names nothing.
   void check_type(const std::string& name, const Handle& set, const hdf5::Element& layout) const {
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const H5T_class_t wanted = H5Tget_class(layout.memory_type);
     const char* kind = wanted == H5T_FLOAT ? "floating-point numbers" : "integers";
     if (H5Tget_class(type.get()) != wanted) fail(name, kind, "another type");
-    if (H5Tget_size(type.get()) > H5Tget_size(layout.memory_type))
-      fail(name, fmt::format("{} of at most {} bytes", kind, H5Tget_size(layout.memory_type)),
+    const std::size_t largest = std::max(H5Tget_size(layout.memory_type), H5Tget_size(layout.file_type));
+    if (H5Tget_size(type.get()) > largest)
+      fail(name, fmt::format("{} of at most {} bytes", kind, largest),
            fmt::format("{} bytes", H5Tget_size(type.get())));
   }
 

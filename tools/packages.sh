@@ -7,7 +7,7 @@ build_packages=(cmake ninja-build g++ libeigen3-dev libfmt-dev libtbb-dev libcga
                 nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev libpugixml-dev)
 simulation_packages=(libopm-simulators-bin)
 test_packages=(libgtest-dev python3 python3-numpy python3-h5py python3-vtk9)
-benchmark_packages=(libbenchmark-dev libopm-common-dev)
+benchmark_packages=(libbenchmark-dev libopm-common-dev libopm-grid-dev)
 ci_packages=(clang libclang-rt-14-dev clang-format clang-tidy gcovr ccache libbenchmark-dev git)
 
 # install_missing PACKAGE…: asks apt only for what is not there, and not at all when nothing is missing.

@@ -64,8 +64,8 @@ class MeshFileWriter {
     need(made.get(), path);
   }
 
-  template <class T>
-  void array(const std::string& path, const std::vector<T>& values) {
+  template <class Array>
+  void array(const std::string& path, const Array& values) {
     const hdf5::Element layout = hdf5::element(values.data());
     const std::array<hsize_t, 2> shape{values.size(), layout.columns};
     const Handle set = dataset(path, layout.file_type, std::span(shape).first(layout.columns == 1 ? 1 : 2));

@@ -33,8 +33,9 @@ constexpr std::string_view vtk_type() {
 class AppendedArrays {
  public:
   /// One row per point or cell, of `components` numbers.
-  template <class T>
-  std::string element(std::string_view name, const std::vector<T>& values, int components = 1) {
+  template <class Array>
+  std::string element(std::string_view name, const Array& values, int components = 1) {
+    using T = typename Array::value_type;
     std::string escaped;
     for (const char c : name)
       escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
@@ -57,25 +58,25 @@ class AppendedArrays {
 
 double up(double depth) { return depth == 0.0 ? 0.0 : -depth; }  // no negative zero
 
-std::vector<double> flat_points(const std::vector<Vec3>& points) {
+std::vector<double> flat_points(std::span<const Vec3> points) {
   std::vector<double> out;
   out.reserve(3 * points.size());
   for (const Vec3& p : points) out.insert(out.end(), {p.x(), p.y(), up(p.z())});
   return out;
 }
 
-std::vector<double> flat(const std::vector<Vec3>& values) {
+std::vector<double> flat(std::span<const Vec3> values) {
   std::vector<double> out;
   out.reserve(3 * values.size());
   for (const Vec3& v : values) out.insert(out.end(), {v.x(), v.y(), v.z()});
   return out;
 }
 
-template <class T, class Function>
-auto mapped(const std::vector<T>& values, Function function) {
+template <class Array, class Function>
+auto mapped(const Array& values, Function function) {
   std::vector<decltype(function(values.front()))> out;
   out.reserve(values.size());
-  for (const T& v : values) out.push_back(function(v));
+  for (const auto& v : values) out.push_back(function(v));
   return out;
 }
 

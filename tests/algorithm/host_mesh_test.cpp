@@ -284,7 +284,8 @@ TEST(HostMesh, DoesNotDependOnTheNumberOfThreads) {
   const auto one = build_with(1);
   const auto two = build_with(2);
   EXPECT_EQ(one.vertices.raw(), two.vertices.raw());
-  EXPECT_EQ(one.corner_vertex, two.corner_vertex);
+  EXPECT_EQ(one.corners.rank, two.corners.rank);
+  EXPECT_EQ(one.corners.first, two.corners.first);
   EXPECT_EQ(one.faces.vertices, two.faces.vertices);
   EXPECT_EQ(one.faces.vertex_start, two.faces.vertex_start);
   EXPECT_EQ(one.faces.cells.raw(), two.faces.cells.raw());
@@ -333,11 +334,12 @@ TEST(HostMesh, IsWatertightOnOddGrids) {
 TEST(HostMesh, NumbersEveryCornerOfEveryCell) {
   for (const auto& [name, grid] : grids::zoo()) {
     const auto mesh = build_host_mesh(grid);
-    ASSERT_EQ(mesh.corner_vertex.size(), grid.zcorn.size()) << name;
+    ASSERT_EQ(mesh.corners.rank.size(), grid.zcorn.size()) << name;
     for (std::int64_t c = 0; c < grid.cell_count(); ++c) {
       const auto corners = grid.corners(HostCellId(c));
+      const auto vertices = mesh.corners_of(HostCellId(c));
       for (std::size_t n = 0; n < 8; ++n) {
-        const Vec3 placed = mesh.vertices[mesh.corner_vertex[8 * static_cast<std::size_t>(c) + n]];
+        const Vec3 placed = mesh.vertices[vertices[n]];
         EXPECT_LT((placed - corners[n]).norm(), 1e-5) << name;  // merged by up to a few tolerances
       }
     }

@@ -85,7 +85,7 @@ HostCheck check_host(const CornerPointGrid& grid, const HostMesh& mesh) {
     if (grid.active[c] == 0) out.faults.push_back(fmt::format("cell {} exists but is inactive", c));
     if (const auto loose = loose_edges(mesh, faces[c]); loose > 0)
       out.faults.push_back(fmt::format("cell {} has {} loose edges", c, loose));
-    const Vec3 origin = mesh.vertices[mesh.corner_vertex[8 * c]];
+    const Vec3 origin = mesh.vertices[mesh.corner(HostCellId(c), 0, 0, 0)];
     Vec3 sum = Vec3::Zero();
     double area = 0.0;
     double volume = 0.0;
@@ -115,9 +115,10 @@ double worst_side_area(const CornerPointGrid& grid, const HostMesh& mesh) {
   std::vector<std::array<double, 4>> whole(mesh.exists.size());
   for (std::size_t c = 0; c < left.size(); ++c) {
     if (mesh.exists[HostCellId(c)] == 0) continue;
+    const auto corners = mesh.corners_of(HostCellId(c));
     for (std::size_t s = 0; s < 4; ++s) {
       std::array<Vec3, 4> points;
-      for (std::size_t n = 0; n < 4; ++n) points[n] = mesh.vertices[mesh.corner_vertex[8 * c + sides[s][n]]];
+      for (std::size_t n = 0; n < 4; ++n) points[n] = mesh.vertices[corners[sides[s][n]]];
       left[c][s] = whole[c][s] = polygon_geometry(points).area;
     }
   }
@@ -129,7 +130,7 @@ double worst_side_area(const CornerPointGrid& grid, const HostMesh& mesh) {
     for (const HostCellId cell : mesh.faces.cells[face]) {
       if (!cell.is_valid() || mesh.exists[cell] == 0) continue;
       Vec3 centre = Vec3::Zero();
-      for (std::size_t n = 0; n < 8; ++n) centre += mesh.vertices[mesh.corner_vertex[8 * cell.index() + n]] / 8.0;
+      for (const VertexId v : mesh.corners_of(cell)) centre += mesh.vertices[v] / 8.0;
       const bool high =
           (geometry.mean - centre)[static_cast<Eigen::Index>(axis)] > 0.0;  // these grids' axes are x and y
       left[cell.index()][2 * axis + (high ? 1 : 0)] -= geometry.area;

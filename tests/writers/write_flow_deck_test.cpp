@@ -85,7 +85,8 @@ TEST(WriteFlowDeck, GivesEachBoxItsVolumeDepthAndThickness) {
 
 TEST(WriteFlowDeck, KeepsPoreVolumesExactly) {
   const Mesh mesh = meshes::box_grid(3);
-  EXPECT_EQ(array(written(mesh).text, "PORV"), mesh.cells.pore_volume.raw());
+  EXPECT_EQ(array(written(mesh).text, "PORV"),
+            std::vector<double>(mesh.cells.pore_volume.begin(), mesh.cells.pore_volume.end()));
 }
 
 TEST(WriteFlowDeck, AddsUpConnectionsOfOnePair) {

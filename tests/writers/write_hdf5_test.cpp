@@ -27,10 +27,11 @@ MeshFile round_trip(const Mesh& mesh) {
 }
 
 /// The bytes of an array: equal bytes are equal values, infinities and signs of zero included.
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  return values.empty() ? std::string()
-                        : std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+template <class Array>
+std::string bytes_of(const Array& values) {
+  return values.empty()
+             ? std::string()
+             : std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values.front()));
 }
 
 std::vector<std::pair<std::string, std::string>> arrays_of(const Mesh& mesh) {
@@ -49,7 +50,13 @@ void expect_equal_wells(const MeshWell& a, const MeshWell& b) {
   EXPECT_EQ(a.drainage_radius, b.drainage_radius);
   EXPECT_EQ(a.type, b.type);
   EXPECT_EQ(a.reference_depth, b.reference_depth);
-  EXPECT_EQ(bytes_of(a.connections), bytes_of(b.connections));
+  ASSERT_EQ(a.connections.size(), b.connections.size());
+  for (std::size_t c = 0; c < a.connections.size(); ++c) {
+    EXPECT_EQ(a.connections[c].cell, b.connections[c].cell);
+    EXPECT_EQ(a.connections[c].well_index, b.connections[c].well_index);
+    EXPECT_EQ(a.connections[c].measured_depth.from, b.connections[c].measured_depth.from);
+    EXPECT_EQ(a.connections[c].measured_depth.to, b.connections[c].measured_depth.to);
+  }
 }
 
 void expect_equal(const Mesh& a, const Mesh& b) {

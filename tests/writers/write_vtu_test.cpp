@@ -69,7 +69,8 @@ TEST(WriteVtu, CarriesEveryProperty) {
   EXPECT_EQ(array<std::int32_t>(file, "FIPNUM"),
             std::get<std::vector<std::int32_t>>(mesh.cells.properties.at("FIPNUM")));
   EXPECT_EQ(array<double>(file, "SWAT"), std::get<std::vector<double>>(mesh.cells.properties.at("SWAT")));
-  EXPECT_EQ(array<double>(file, "pore_volume"), mesh.cells.pore_volume.raw());
+  EXPECT_EQ(array<double>(file, "pore_volume"),
+            std::vector<double>(mesh.cells.pore_volume.begin(), mesh.cells.pore_volume.end()));
 }
 
 TEST(WriteVtu, GivesTheCentringOfABox) {
