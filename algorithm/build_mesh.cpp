@@ -16,6 +16,7 @@
 #include "algorithm/assembly.h"
 #include "algorithm/edit_connections.h"
 #include "algorithm/flow_connections.h"
+#include "algorithm/host_validity.h"
 #include "algorithm/property_transfer.h"
 #include "algorithm/source_pore_volume.h"
 #include "algorithm/well_connections.h"
@@ -86,6 +87,8 @@ class Builder {
     add_wells(assembly);
     clock_.lap("connections");
     for (const TransitionMesh& c : cavities_) result_.summary.cavities.push_back(c.summary);
+    result_.summary.validity = check_host_validity(grid_, host_);
+    clock_.lap("validity");
     result_.mesh = std::move(assembly.mesh);
     return std::move(result_);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/case.h"
+#include "model/grid_validity.h"
 #include "model/mesh.h"
 
 namespace wellknit {
@@ -65,6 +66,7 @@ struct StepTime {
 struct BuildSummary {
   std::vector<WellSummary> wells;  ///< in the order given
   std::vector<CavitySummary> cavities;
+  GridValidity validity;  ///< of the host
   std::vector<StepTime> times;
   std::vector<std::string> notes;
 };

@@ -139,18 +139,22 @@ class ConnectionEditor {
   }
 
   void add_pinches() {
+    const ArrayEdits steps(grid_, ComputedArray::transmissibility_z);
     std::int64_t beside_wells = 0;
     for (const PinchConnection& pinch : pinch_connections(grid_, host_, multipliers_)) {
+      double t = pinch.transmissibility;
+      if (steps.exist() && are_neighbours(pinch.upper, pinch.lower, 2))
+        t = std::max(0.0, steps.applied(pinch.upper, t));
       if (is_kept(pinch.upper) && is_kept(pinch.lower))
-        add(assembly_.cell_of[pinch.upper], assembly_.cell_of[pinch.lower], pinch.transmissibility, pinch.multiplier,
+        add(assembly_.cell_of[pinch.upper], assembly_.cell_of[pinch.lower], t, pinch.multiplier,
             ConnectionKind::pinch_out);
       else
         ++beside_wells;
     }
     if (beside_wells > 0)
       notes_.push_back(
-          fmt::format("{} connections of PINCH lead to cells that the wells' meshes replace; they are "
-                      "left out",
+          fmt::format("{} connections across gaps and pinch-outs lead to cells that the wells' meshes replace; they "
+                      "are left out",
                       beside_wells));
   }
 

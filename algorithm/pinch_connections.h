@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// Connections of the PINCH keyword between cells that share no face: across cells that are left out or thin.
+/// Connections between cells of a column that share no face: across a gap, and by the PINCH keyword across cells that
+/// are left out or thin.
 #pragma once
 
 #include <vector>
@@ -18,9 +19,10 @@ struct PinchConnection {
   double multiplier = 1.0;
 };
 
-/// Existing cells of a column with nothing between them but cells that MINPV leaves out (with NOGAP: only those
-/// thinner than the threshold), inactive cells no thicker than the threshold, and cells without thickness. Those that
-/// share a face already are left out. Empty without PINCH.
+/// Existing cells of a column that follow each other, with PINCH also those with nothing between them but cells that
+/// MINPV leaves out (with NOGAP: only those thinner than the threshold), inactive cells no thicker than the threshold,
+/// and cells without thickness (with PINCHOUT alone: only these). Not those that share a face already, nor, with PINCH,
+/// those with more void between them than its item 3. Empty without permeability along k.
 std::vector<PinchConnection> pinch_connections(const CornerPointGrid& grid, const HostMesh& host,
                                                const HostMultipliers& multipliers);
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "algorithm/host_validity.h"
 #include "cli/commands.h"
 #include "readers/describe.h"
 
@@ -19,7 +20,8 @@ struct InfoRequest {
 };
 
 int info(const InfoRequest& request) {
-  const FileDescription description = describe_file(request.file);
+  const FileDescription description =
+      describe_file(request.file, [](const CornerPointGrid& grid) { return check_host_validity(grid); });
   std::cout << (request.json ? to_json(description) : to_text(description));
   return 0;
 }

@@ -190,6 +190,7 @@ std::string to_text(const BuildReport& report) {
   write_cavities(out, report);
   write_mesh(out, report);
   write_quality(out, report.quality);
+  for (const std::string& line : to_lines(report.build.validity)) fmt::format_to(out, "grid        {}\n", line);
   for (const std::string& note : report.notes) fmt::format_to(out, "note        {}\n", note);
   for (const std::string& note : report.build.notes) fmt::format_to(out, "note        {}\n", note);
   write_times(out, report);
@@ -208,6 +209,7 @@ std::string to_json(const BuildReport& report) {
   for (const CavitySummary& cavity : report.build.cavities) json["cavities"].push_back(json_of(cavity));
   json["pore_volume"] = report.pore_volume;
   json["quality"] = Json::parse(report.quality.to_json());
+  json["validity"] = Json::parse(to_json(report.build.validity));
   json["notes"] = report.notes;
   for (const std::string& note : report.build.notes) json["notes"].push_back(note);
   json["times"] = Json::array();

@@ -43,6 +43,8 @@ void validate(const ConnectionEdits& edits, const std::array<std::int64_t, 3>& d
       throw InvalidInput(
           fmt::format("{} has {} values where the dimensions ask for {}", keyword, values.size(), cells));
   };
+  if (edits.method == TransmissibilityMethod::oldtran || edits.method == TransmissibilityMethod::oldtranr)
+    throw InvalidInput("transmissibilities of block centres (OLDTRAN, OLDTRANR) are not available: ask for NEWTRAN");
   for (std::size_t face = 0; face < edits.face_multiplier.size(); ++face)
     expect_length(edits.face_multiplier[face], multiplier_keyword(static_cast<FaceDirection>(face)));
   expect_length(edits.pore_volume_multiplier, "MULTPV");

@@ -100,7 +100,8 @@ struct PinchOptions {
   PinchMultiplier multiplier = PinchMultiplier::top;
 };
 
-/// How the deck asks transmissibilities to be computed. Unset: NEWTRAN for corner points, OLDTRAN for DX, DY, DZ.
+/// How the deck asks transmissibilities to be computed. by_geometry: as for corner points, as OPM Flow has it for DX,
+/// DY, DZ too. oldtran and oldtranr are refused.
 enum class TransmissibilityMethod : std::uint8_t { by_geometry, newtran, oldtran, oldtranr };
 
 /// An array that a simulator computes from the grid and the EDIT section then changes.
@@ -147,7 +148,8 @@ struct ConnectionEdits {
   std::vector<ArrayEdit> array_edits;
 };
 
-/// Throws InvalidInput when an array's length is not the number of cells or a cell does not exist.
+/// Throws InvalidInput when an array's length is not the number of cells, a cell does not exist, or block-centred
+/// transmissibilities are asked for.
 void validate(const ConnectionEdits& edits, const std::array<std::int64_t, 3>& dimensions);
 
 /// "MULTX", "MULTX-" …

@@ -61,9 +61,22 @@ void DeckConnections::read() {
   if (keyword.name == "PINCH") return read_pinch();
   if (keyword.name == "MINPV" || keyword.name == "MINPORV") return read_least_pore_volume();
   if (keyword.name == "PINCHOUT") edits_.pinchout = true;
-  if (keyword.name == "NEWTRAN") edits_.method = TransmissibilityMethod::newtran;
-  if (keyword.name == "OLDTRAN") edits_.method = TransmissibilityMethod::oldtran;
-  if (keyword.name == "OLDTRANR") edits_.method = TransmissibilityMethod::oldtranr;
+  if (keyword.name == "NEWTRAN") ask_for(TransmissibilityMethod::newtran);
+  if (keyword.name == "OLDTRAN") ask_for(TransmissibilityMethod::oldtran);
+  if (keyword.name == "OLDTRANR") ask_for(TransmissibilityMethod::oldtranr);
+}
+
+void DeckConnections::ask_for(TransmissibilityMethod method) {
+  edits_.method = method;
+  method_where_ = {stream_.keyword().file, stream_.keyword().line, stream_.keyword().name};
+}
+
+/// The last one counts.
+void DeckConnections::refuse_block_centred_method() const {
+  if (edits_.method != TransmissibilityMethod::oldtran && edits_.method != TransmissibilityMethod::oldtranr) return;
+  throw ParseError(method_where_, {"NEWTRAN, or no keyword for it", method_where_.keyword,
+                                   "transmissibilities of block centres are not available: take the keyword out for "
+                                   "those of corner points, as OPM Flow has them"});
 }
 
 Fault& DeckConnections::fault_named(const std::string& name, std::int64_t line) {
@@ -300,6 +313,7 @@ void DeckConnections::take_arrays() {
 }
 
 ConnectionEdits DeckConnections::finish(UnitSystem units) {
+  refuse_block_centred_method();
   apply_fault_multipliers();
   take_arrays();
   const double volume = m3_per_reservoir_volume_unit(units);

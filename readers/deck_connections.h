@@ -23,7 +23,8 @@ class DeckConnections {
   /// The records of the current keyword. Throws ParseError.
   void read();
 
-  /// Everything, in SI; takes the multipliers and the edits out of the arrays.
+  /// Everything, in SI; takes the multipliers and the edits out of the arrays. Throws ParseError where the deck asks
+  /// for OLDTRAN or OLDTRANR: no formula of theirs is published that could be checked.
   ConnectionEdits finish(UnitSystem units);
 
  private:
@@ -41,6 +42,8 @@ class DeckConnections {
   void read_region_pore_volumes();
   void read_pairs(std::vector<CellPairValue>& pairs, double default_value);
   void read_pinch();
+  void ask_for(TransmissibilityMethod method);
+  void refuse_block_centred_method() const;
   void read_least_pore_volume();
 
   Fault& fault_named(const std::string& name, std::int64_t line);
@@ -59,6 +62,7 @@ class DeckConnections {
   ConnectionEdits edits_;  ///< in the deck's units
   std::unordered_map<std::string, std::size_t> fault_of_name_;
   std::vector<FaultMultiplier> fault_multipliers_;
+  ParseError::Where method_where_;  ///< of the last of NEWTRAN, OLDTRAN, OLDTRANR
 };
 
 }  // namespace wellknit

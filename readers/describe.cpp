@@ -224,7 +224,8 @@ bool describe_properties(const std::string& path, const ReaderFormat& format, Fi
 
 }  // namespace
 
-FileDescription describe_file(const std::string& path) {
+FileDescription describe_file(const std::string& path,
+                              const std::function<GridValidity(const CornerPointGrid&)>& look_at) {
   const ReaderFormat& format = recognise_file(path);
   FileDescription out;
   out.path = path;
@@ -234,6 +235,7 @@ FileDescription describe_file(const std::string& path) {
       if (describe_properties(path, format, out)) break;
       Case read = read_case(path);
       out.grid = describe(read.grid);
+      if (look_at) out.validity = look_at(read.grid);
       for (const Well& well : read.deck_wells) out.wells.push_back(describe(well));
       out.sources = std::move(read.sources);
       out.notes = std::move(read.notes);

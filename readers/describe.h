@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "model/case.h"
 #include "model/geometry.h"
+#include "model/grid_validity.h"
 #include "model/well.h"
 
 namespace wellknit {
@@ -96,10 +98,12 @@ struct FileDescription {
   std::vector<WellDescription> wells;
   std::vector<SourceFile> sources;
   std::vector<std::string> notes;
+  std::optional<GridValidity> validity;  ///< of a grid, where its caller looked at it
 };
 
-/// Reads the file, told by content. Throws ParseError as its reader does.
-FileDescription describe_file(const std::string& path);
+/// Reads the file, told by content. Throws ParseError as its reader does. `look_at` gets a grid before it goes.
+FileDescription describe_file(const std::string& path,
+                              const std::function<GridValidity(const CornerPointGrid&)>& look_at = {});
 
 GridDescription describe(const CornerPointGrid& grid);
 WellDescription describe(const Well& well);

@@ -187,6 +187,8 @@ std::string to_text(const FileDescription& description) {
   for (const WellDescription& well : description.wells) text += well_text(well);
   for (const SourceFile& source : description.sources)
     text += fmt::format("read {} sha256 {}\n", source.path, source.sha256);
+  if (description.validity)
+    for (const std::string& line : to_lines(*description.validity)) text += fmt::format("grid: {}\n", line);
   for (const std::string& note : description.notes) text += fmt::format("note: {}\n", note);
   return text;
 }
@@ -202,6 +204,7 @@ std::string to_json(const FileDescription& description) {
   out["sources"] = Json::array();
   for (const SourceFile& source : description.sources)
     out["sources"].push_back({{"path", source.path}, {"sha256", source.sha256}});
+  if (description.validity) out["validity"] = Json::parse(to_json(*description.validity));
   out["notes"] = description.notes;
   // Names in a file may be in any encoding: what is not UTF-8 is replaced.
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -20,16 +20,14 @@ struct Unapplied {
 
 /// Carried with the grid. A line goes when the mesh follows what its keyword says.
 constexpr auto carried = std::to_array<Unapplied>({
-    {"OLDTRAN", "transmissibilities"},
-    {"OLDTRANR", "transmissibilities"},
     {"DEPTH", "depths"},
 });
 
-/// Applied, or without effect by themselves.
+/// Applied, without effect by themselves, or refused when all is read.
 constexpr auto applied = std::to_array<std::string_view>(
-    {"FAULTS", "PINCH",  "PINCHOUT", "NEWTRAN",  "MULTX", "MULTX-",  "MULTY",    "MULTY-",
-     "MULTZ",  "MULTZ-", "MULTFLT",  "MULTREGT", "NNC",   "EDITNNC", "EDITNNCR", "TRANX",
-     "TRANY",  "TRANZ",  "MULTPV",   "MULTREGP", "PORV",  "MINPV",   "MINPORV",  "MINPVV"});
+    {"FAULTS", "PINCH",   "PINCHOUT", "NEWTRAN",  "MULTX",   "MULTX-",   "MULTY",   "MULTY-",   "MULTZ",
+     "MULTZ-", "MULTFLT", "MULTREGT", "NNC",      "OLDTRAN", "OLDTRANR", "EDITNNC", "EDITNNCR", "TRANX",
+     "TRANY",  "TRANZ",   "MULTPV",   "MULTREGP", "PORV",    "MINPV",    "MINPORV", "MINPVV"});
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "algorithm/array_edits.h"
@@ -159,6 +160,95 @@ TEST(PinchConnections, TakeTheLeastMultiplierBetweenOnRequest) {
   EXPECT_EQ(host_of(grid).mesh.connections.multiplier[ConnectionId(0)], 0.5);
   grid.edits.pinch->multiplier = PinchMultiplier::all;
   EXPECT_EQ(host_of(grid).mesh.connections.multiplier[ConnectionId(0)], 0.1);
+}
+
+/// Of the two cells of a box of 10 x 20 x 5 m cells with 1 m between them: each half is k A / 2.5 m.
+constexpr double across_gap = 1e-14 * 200.0 / 5.0;
+
+TEST(PinchConnections, CrossGapsBetweenNeighboursWithoutPinch) {
+  const Mesh mesh = host_of(grids::with_gap({1, 1, 2})).mesh;
+  ASSERT_EQ(mesh.connections.size(), 1U);
+  EXPECT_EQ(mesh.connections.kind[ConnectionId(0)], ConnectionKind::pinch_out);
+  EXPECT_NEAR(mesh.connections.transmissibility[ConnectionId(0)], across_gap, 1e-12 * across_gap)
+      << "as if the void were not there";
+}
+
+TEST(PinchConnections, CrossNoGapAboveItem3) {
+  auto grid = grids::with_gap({1, 1, 2});
+  grid.edits.pinch = PinchOptions{};
+  grid.edits.pinch->largest_gap = 0.9;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U) << "the gap is 1 m";
+  grid.edits.pinch->largest_gap = 1.0;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 1U);
+  grid.edits.pinch->across_gaps = false;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 1U) << "NOGAP is about cells that MINPV leaves out";
+}
+
+TEST(PinchConnections, MeasureAGapWhereItIsLeast) {
+  auto grid = grids::with_gap({1, 1, 2});
+  grid.zcorn[grid.zcorn_index({0, 0, 1}, 1, 1, 0)] -= 0.7;  // 0.3 m at one corner
+  grid.edits.pinch = PinchOptions{};
+  grid.edits.pinch->largest_gap = 0.5;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 1U);
+  grid.edits.pinch->largest_gap = 0.2;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U);
+}
+
+TEST(PinchConnections, TakeLayersNumberedUpwards) {
+  auto grid = grids::with_gap({1, 1, 2});
+  std::reverse(grid.zcorn.begin(), grid.zcorn.end());  // a box: corners of one horizon are alike
+  grid.edits.pinch = PinchOptions{};
+  grid.edits.pinch->largest_gap = 1.5;
+  const Mesh mesh = host_of(grid).mesh;
+  ASSERT_EQ(mesh.connections.size(), 1U);
+  EXPECT_NEAR(mesh.connections.transmissibility[ConnectionId(0)], across_gap, 1e-12 * across_gap);
+  grid.edits.pinch->largest_gap = 0.5;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U);
+}
+
+/// Three cells; the middle one without thickness, 0.4 m below the first and 0.6 m above the last.
+CornerPointGrid flat_in_a_gap() {
+  auto grid = grids::with_gap({1, 1, 3});
+  for (int corner = 0; corner < 4; ++corner) {
+    for (int dk = 0; dk < 2; ++dk) grid.zcorn[grid.zcorn_index({0, 0, 1}, corner & 1, corner >> 1, dk)] = 1005.4;
+    grid.zcorn[grid.zcorn_index({0, 0, 2}, corner & 1, corner >> 1, 0)] = 1006.0;
+    grid.zcorn[grid.zcorn_index({0, 0, 2}, corner & 1, corner >> 1, 1)] = 1011.0;
+  }
+  return grid;
+}
+
+TEST(PinchConnections, CrossACellWithoutThicknessOnlyWithPinch) {
+  auto grid = flat_in_a_gap();
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U);
+  grid.edits.pinchout = true;
+  EXPECT_NEAR(between(host_of(grid).mesh, HostCellId(0), HostCellId(2)), across_gap, 1e-12 * across_gap);
+  grid.edits.pinch = PinchOptions{};
+  grid.edits.pinch->largest_gap = 1.1;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 1U);
+  grid.edits.pinch->largest_gap = 0.9;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U) << "0.4 m and 0.6 m";
+}
+
+TEST(PinchConnections, PinchoutBridgesNothingThick) {
+  auto grid = grids::box({1, 1, 3});
+  grid.edits.least_pore_volume = 100.0;
+  grid.porosity = {0.2, 0.05, 0.2};
+  grid.edits.pinchout = true;
+  EXPECT_EQ(host_of(grid).mesh.connections.size(), 0U);
+}
+
+TEST(PinchConnections, FollowMultipliersAndTranzAcrossAGap) {
+  auto grid = grids::with_gap({1, 1, 2});
+  grid.edits.face_multiplier[static_cast<std::size_t>(FaceDirection::k_plus)] = {0.5, 1.0};
+  grid.edits.face_multiplier[static_cast<std::size_t>(FaceDirection::k_minus)] = {1.0, 0.25};
+  EXPECT_NEAR(between(host_of(grid).mesh, HostCellId(0), HostCellId(1)), 0.125 * across_gap, 1e-12 * across_gap);
+  ArrayEdit edit;
+  edit.array = ComputedArray::transmissibility_z;
+  edit.operation = ArrayOperation::multiply;
+  edit.cells = {{0, 0, 0}, {0, 0, 1}};
+  edit.value = 2.0;
+  grid.edits.array_edits = {edit};
+  EXPECT_NEAR(between(host_of(grid).mesh, HostCellId(0), HostCellId(1)), 0.25 * across_gap, 1e-12 * across_gap);
 }
 
 TEST(EditConnections, AddMultiplyAndReplaceNonNeighbours) {

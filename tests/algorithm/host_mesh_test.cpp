@@ -11,11 +11,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
 
+#include "algorithm/build_mesh.h"
+#include "algorithm/host_validity.h"
 #include "model/errors.h"
+#include "model/mesh_check.h"
 #include "readers/read_case.h"
 #include "tests/support/grids.h"
 #include "tests/support/host_checks.h"
@@ -48,9 +52,12 @@ TEST(HostMesh, IsWatertightOverTheZoo) {
 std::int64_t expect_watertight(std::uint32_t seed) {
   const std::int64_t nz = 1 + seed % 7;
   const auto grid = grids::random_faults({1 + seed % 3, 1 + seed / 3 % 4, nz}, seed);
-  // A tiny grid may have no active cell at all.
-  if (std::count(grid.active.begin(), grid.active.end(), 1) == 0) return 0;
-  const auto mesh = build_host_mesh(grid);
+  HostMesh mesh;
+  try {
+    mesh = build_host_mesh(grid);
+  } catch (const InvalidInput&) {
+    return 0;  // a tiny grid may have no active cell, or none with thickness
+  }
   const auto checked = check_host(grid, mesh);
   EXPECT_TRUE(checked.faults.empty()) << "seed " << seed << ": " << checked.faults.front();
   EXPECT_LT(checked.worst_openness, 1e-12) << "seed " << seed;
@@ -73,6 +80,134 @@ TEST(HostMesh, IsWatertightOverFreshRandomFaults) {
     const std::uint32_t seed = first + static_cast<std::uint32_t>(n);
     expect_watertight(seed);
   }
+}
+
+/// A grid of all that can be odd: what must hold for it all the same. Grids that no cell is left of are refused.
+struct RandomTally {
+  std::int64_t grids = 0;
+  std::int64_t refused = 0;
+  std::int64_t cells = 0;
+  std::int64_t spheres = 0;
+  std::int64_t others = 0;  ///< cells that touch themselves
+  std::int64_t odd_grids = 0;
+  std::array<std::int64_t, grid_oddity_count> oddities{};
+  // Where pillars are parallel:
+  double worst_uncut_volume = 0.0;
+  std::int64_t uncut_cells = 0;
+  std::int64_t cut_cells = 0;
+  std::int64_t far_off_cells = 0;
+};
+
+/// Cells with thickness whose volume is not positive, or with a Jacobian of 0 or less at a corner: counted at every
+/// corner of every active cell, from the mesh's vertices.
+std::int64_t misshapen_cells(const CornerPointGrid& grid, const HostMesh& mesh, double limit) {
+  std::int64_t count = 0;
+  const double handedness = mesh.left_handed ? -1.0 : 1.0;
+  for (std::size_t c = 0; c < grid.active.size(); ++c) {
+    std::array<Vec3, 8> points;
+    for (std::size_t n = 0; n < 8; ++n) points[n] = mesh.vertices[mesh.corner_vertex[8 * c + n]];
+    bool is_flat = true;
+    for (std::size_t n = 0; n < 4; ++n) is_flat = is_flat && points[n] == points[n + 4];
+    if (grid.active[c] == 0 || is_flat) continue;
+    bool is_odd = handedness * bilinear_hexahedron_volume(points) <= (limit > 0.0 ? sliver_volume : -sliver_volume);
+    for (std::size_t n = 0; n < 8; ++n) {
+      const Vec3 u = points[n | 1U] - points[n & ~std::size_t{1}];
+      const Vec3 v = points[n | 2U] - points[n & ~std::size_t{2}];
+      const Vec3 w = points[n | 4U] - points[n & ~std::size_t{4}];
+      const double lengths = u.norm() * v.norm() * w.norm();
+      if (std::min({u.norm(), v.norm(), w.norm()}) > pillar_merge_tolerance)
+        is_odd = is_odd || handedness * u.dot(v.cross(w)) < limit * lengths;
+    }
+    count += is_odd ? 1 : 0;
+  }
+  return count;
+}
+
+/// The report finds the same cells without looking at most of them. Figures within rounding of the limit may differ.
+void expect_same_shapes(const CornerPointGrid& grid, const HostMesh& mesh, const GridValidity& validity,
+                        std::uint32_t seed) {
+  const std::int64_t found = validity[GridOddity::negative_volume].count +
+                             validity[GridOddity::self_overlapping].count + validity[GridOddity::twisted].count;
+  EXPECT_GE(found, misshapen_cells(grid, mesh, -1e-5)) << "seed " << seed;
+  EXPECT_LE(found, misshapen_cells(grid, mesh, 1e-5)) << "seed " << seed;
+}
+
+/// The finished mesh of the grid alone: all that is checked of a mesh but what crossing pillars and cut tops may do to
+/// the volumes of faces.
+void expect_valid_mesh(const CornerPointGrid& grid, std::uint32_t seed) {
+  MeshCheckOptions options;
+  options.host_volume_limit = std::numeric_limits<double>::infinity();
+  for (const Violation& v : check_mesh(build_mesh({grid, {}, {}, {}}, {}, {}).mesh, options)) {
+    if (v.check == "volume not positive") continue;
+    ADD_FAILURE() << "seed " << seed << ": " << v.check << ", " << v.entity << ": " << v.detail;
+    return;
+  }
+}
+
+void expect_sound(std::uint32_t seed, RandomTally& tally) {
+  const auto random = grids::random_host({1 + seed % 4, 1 + seed / 4 % 3, 1 + seed / 12 % 7}, seed);
+  const CornerPointGrid& grid = random.grid;
+  ++tally.grids;
+  HostMesh mesh;
+  try {
+    mesh = build_host_mesh(grid);
+  } catch (const InvalidInput&) {
+    ++tally.refused;
+    return;
+  }
+  const HostCheck checked = check_host(grid, mesh);
+  EXPECT_TRUE(checked.faults.empty()) << "seed " << seed << ": " << checked.faults.front();
+  EXPECT_LT(checked.worst_openness, 1e-11) << "seed " << seed;
+  const TopologyCheck topology = check_topology(mesh);
+  EXPECT_TRUE(topology.faults.empty()) << "seed " << seed << ": " << topology.faults.front();
+  if (checked.cells > 0) expect_valid_mesh(grid, seed);
+  const GridValidity validity = check_host_validity(grid, mesh);
+  expect_same_shapes(grid, mesh, validity, seed);
+  tally.cells += checked.cells;
+  tally.spheres += topology.spheres;
+  tally.others += topology.others;
+  tally.odd_grids += validity.empty() ? 0 : 1;
+  for (std::size_t n = 0; n < grid_oddity_count; ++n) tally.oddities[n] += validity.kinds[n].count;
+  if (!random.has_parallel_pillars) return;
+  EXPECT_LT(checked.worst_uncut_volume, 1e-9) << "seed " << seed;
+  tally.worst_uncut_volume = std::max(tally.worst_uncut_volume, checked.worst_uncut_volume);
+  tally.uncut_cells += checked.uncut_cells;
+  tally.cut_cells += checked.cut_cells;
+  tally.far_off_cells += checked.far_off_cells;
+}
+
+/// Prints what was met, and checks what holds for many grids.
+void expect_usual(const RandomTally& tally) {
+  std::cout << tally.grids << " grids, " << tally.refused << " without a cell; " << tally.cells << " cells, "
+            << tally.others << " of them touch themselves; odd grids " << tally.odd_grids << ":";
+  for (std::size_t n = 0; n < grid_oddity_count; ++n)
+    std::cout << ' ' << name_of(static_cast<GridOddity>(n)) << ' ' << tally.oddities[n];
+  std::cout << "; between parallel pillars " << tally.uncut_cells << " cells with whole tops, volumes within "
+            << tally.worst_uncut_volume << ", and " << tally.cut_cells << " with cut ones, " << tally.far_off_cells
+            << " of all further off than 2 %\n";
+  EXPECT_EQ(tally.others, 0) << "every cell's surface is a sphere";
+  if (tally.grids >= 100) {
+    EXPECT_LT(tally.far_off_cells, (tally.uncut_cells + tally.cut_cells) / 20);
+  }
+}
+
+TEST(HostMesh, HoldsItsPropertiesOverRandomGrids) {
+  RandomTally tally;
+  for (std::uint32_t seed = 1; seed <= 300; ++seed) expect_sound(seed, tally);
+  expect_usual(tally);
+  EXPECT_LT(tally.refused, 60);  // else the grids would not try what they are for
+  for (std::size_t n = 0; n < grid_oddity_count; ++n)
+    EXPECT_GT(tally.oddities[n], 10) << name_of(static_cast<GridOddity>(n));
+}
+
+TEST(HostMesh, HoldsItsPropertiesOverFreshRandomGrids) {
+  const char* const asked = std::getenv("WELLKNIT_RANDOM_GRIDS");
+  const int count = asked == nullptr ? 200 : std::atoi(asked);
+  const auto first = std::random_device()();
+  std::cout << "seeds from " << first << '\n';
+  RandomTally tally;
+  for (int n = 0; n < count && !HasFailure(); ++n) expect_sound(first + static_cast<std::uint32_t>(n), tally);
+  expect_usual(tally);
 }
 
 TEST(HostMesh, CountsFacesAndVerticesOfABox) {

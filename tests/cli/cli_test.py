@@ -411,6 +411,19 @@ class Summary(Case):
         self.assertEqual(out["outputs"][0]["bytes"], (self.folder / "out.h5").stat().st_size)
         self.assertTrue(all(time["seconds"] >= 0 for time in out["times"]))
 
+    def test_names_odd_cells_in_the_summary_and_info(self):
+        """Two cells of 10 x 10 x 2 m with a void of 1 m between them."""
+        self.write("gap.GRDECL", "SPECGRID\n 1 1 2 1 F /\nCOORD\n 0 0 0 0 0 9 10 0 0 10 0 9 0 10 0 0 10 9 10 10 0 10 10 9 /\n"
+                   "ZCORN\n 4*0 4*2 4*3 4*5 /\nPORO\n 2*0.2 /\n")
+        line = "cells below a gap in their column: 1, 100 m2 in plan"
+        for text in (self.succeed("build", "gap.GRDECL", "-o", "out.h5"), self.succeed("info", "gap.GRDECL")):
+            self.assertIn(line, text)
+            self.assertIn("worst (1, 1, 2): 1 m", text)
+        built = json.loads(self.succeed("build", "gap.GRDECL", "-o", "out.h5", "--overwrite", "--json"))["validity"]
+        self.assertEqual(built["gap"]["worst"], {"cell": [1, 1, 2], "other": [1, 1, 1], "figure": 1.0})
+        self.assertEqual(built.pop("open_fault_faces"), 0)
+        self.assertEqual(json.loads(self.succeed("info", "gap.GRDECL", "--json"))["validity"], built)
+
     def test_check_as_text_and_json(self):
         self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "out.h5")
         self.assertIn("valid", self.succeed("check", "out.h5"))

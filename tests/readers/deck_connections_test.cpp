@@ -200,9 +200,19 @@ TEST(DeckConnections, ReadsLeastPoreVolumes) {
 }
 
 TEST(DeckConnections, ReadsHowTransmissibilitiesAreAskedFor) {
+  EXPECT_EQ(edits_of("").method, TransmissibilityMethod::by_geometry);
   EXPECT_EQ(edits_of("NEWTRAN\n").method, TransmissibilityMethod::newtran);
-  EXPECT_EQ(edits_of("OLDTRAN\n").method, TransmissibilityMethod::oldtran);
-  EXPECT_EQ(edits_of("OLDTRANR\n").method, TransmissibilityMethod::oldtranr);
+  EXPECT_EQ(edits_of("OLDTRAN\nNEWTRAN\n").method, TransmissibilityMethod::newtran) << "the last one counts";
+}
+
+TEST(DeckConnections, RefusesTransmissibilitiesOfBlockCentres) {
+  for (const std::string keyword : {"OLDTRAN", "OLDTRANR"}) {
+    const auto error = error_of([&] { return edits_of("NEWTRAN\n" + keyword + "\n"); });
+    ASSERT_TRUE(error) << keyword;
+    EXPECT_EQ(error->where().keyword, keyword);
+    EXPECT_GT(error->where().line, 0);
+    EXPECT_NE(error->problem().advice.find("take the keyword out"), std::string::npos);
+  }
 }
 
 TEST(DeckConnections, KeepsEditsOfComputedArraysInTheirOrder) {

@@ -167,9 +167,9 @@ MINVALUE
 TEST(ReadCase, NotesOnceWhatItDoesNotApply) {
   const Case read = case_of(
       unit_boxes(2, 1, 1) +
-      "OLDTRAN\nMULTX\n 2*0.5 /\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\nOLDTRAN\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\n");
+      "HALFTRAN\nMULTX\n 2*0.5 /\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\nHALFTRAN\nAQUCON\n 1 1 2 1 1 1 1 'I-' /\n/\n");
   ASSERT_EQ(read.notes.size(), 2U);
-  EXPECT_EQ(read.notes[0], "case.GRDECL:14: OLDTRAN is read, and not applied to transmissibilities yet");
+  EXPECT_EQ(read.notes[0], "case.GRDECL:14: HALFTRAN is not applied yet");
   EXPECT_EQ(read.notes[1], "case.GRDECL:17: AQUCON is not applied yet");
 }
 

@@ -37,7 +37,7 @@ def flow_result(deck, folder):
 
 
 def simulator_result(stem):
-    """Active cells, pore volume (m3), and {(a, b): transmissibility in m3} from a simulator's own files."""
+    """Active cells, pore volume (m3), {(a, b): transmissibility in m3} and ZCORN from a simulator's own files."""
     init, grid = arrays(stem.with_suffix(".INIT")), arrays(stem.with_suffix(".EGRID"))
     nx, ny, nz = (int(n) for n in grid["GRIDHEAD"][1:4])
     flags = grid.get("ACTNUM")
@@ -63,13 +63,24 @@ def simulator_result(stem):
         for a, b, value in zip(grid["NNC1"], grid["NNC2"], init["TRANNNC"]):
             if is_active[a - 1] and is_active[b - 1]:  # flow lists records of NNC with cells that MINPV left out
                 add(int(a) - 1, int(b) - 1, value)
-    return active, init["PORV"][active].astype(float) * M3_PER_RESERVOIR_UNIT[units], pairs
+    return active, init["PORV"][active].astype(float) * M3_PER_RESERVOIR_UNIT[units], pairs, grid["ZCORN"]
 
 
 def is_explained(pair, dimensions):
     """Flow 2022.10 does not look at the uppermost layer when it bridges more than one cell left out (MinpvProcessor)."""
     layer = dimensions[0] * dimensions[1]
     return pair[0] < layer and (pair[1] - pair[0]) % layer == 0 and pair[1] >= 3 * layer
+
+
+def has_void(pair, dimensions, zcorn):
+    """Whether some of the depths between two cells of a column belong to no cell. Flow 2022.10 connects nothing there, as later versions do."""
+    nx, ny, _ = dimensions
+    if (pair[1] - pair[0]) % (nx * ny):
+        return False
+    column = zcorn.reshape(-1, 2, ny, 2, nx, 2)[:, :, pair[0] // nx % ny, :, pair[0] % nx, :]
+    upper, lower = pair[0] // (nx * ny), pair[1] // (nx * ny)
+    solid = (column[upper + 1:lower, 1] - column[upper + 1:lower, 0]).sum(axis=0)
+    return bool((np.abs(column[lower, 0] - column[upper, 1] - solid) > 1e-3).any())
 
 
 def our_result(path):
@@ -150,7 +161,7 @@ def compare(wellknit, checker, deck, folder, stem=None):
                           text=True, check=False)
     if done.returncode != 0:
         return [f"wellknit failed: {done.stderr.strip()}"], ""
-    active, porv, theirs = simulator_result(stem) if stem else flow_result(deck, folder)
+    active, porv, theirs, zcorn = simulator_result(stem) if stem else flow_result(deck, folder)
     source, pore_volume, ours, dimensions = our_result(out)
     keep = pore_volume > 0  # flow leaves out cells without pores
     with_pores = set(source[keep].tolist())
@@ -166,8 +177,9 @@ def compare(wellknit, checker, deck, folder, stem=None):
     both = theirs.keys() & ours.keys()
     worst = max((abs(ours[p] / theirs[p] - 1) for p in both), default=0.0)
     alone_here = [p for p in ours.keys() - theirs.keys() if ours[p] > 1e-6 * largest]
-    explained = [p for p in alone_here if is_explained(p, dimensions)]
-    alone_here = [p for p in alone_here if p not in explained]
+    gaps = {p for p in alone_here if has_void(p, dimensions, zcorn)}
+    explained = {p for p in alone_here if p not in gaps and is_explained(p, dimensions)}
+    alone_here = [p for p in alone_here if p not in explained and p not in gaps]
     alone_there = [p for p in theirs.keys() - ours.keys() if theirs[p] > 1e-6 * largest]
     if worst > TOLERANCE:
         pair = max(both, key=lambda p: abs(ours[p] / theirs[p] - 1))
@@ -178,7 +190,8 @@ def compare(wellknit, checker, deck, folder, stem=None):
         checked = subprocess.run([sys.executable, checker, str(out)], capture_output=True, text=True, check=False)
         faults += [line for line in checked.stdout.splitlines() if "FAIL" in line]
     figures = f"{len(active)} cells, {len(theirs)} connections, T {worst:.1e}, PORV {worst_porv:.1e}"
-    return faults, figures + (f", {len(explained)} across the uppermost layers only here" if explained else "")
+    figures += f", {len(explained)} across the uppermost layers only here" if explained else ""
+    return faults, figures + (f", {len(gaps)} across gaps only here" if gaps else "")
 
 
 def main():

@@ -42,11 +42,21 @@ def geometry(rng):
     return (nx, ny, nz), coord, zcorn
 
 
+def open_gap(zcorn, seed):
+    """In some models all below one layer goes down, in one part of the columns. Its numbers are its own, so that the rest of a seed's model stays."""
+    rng = np.random.default_rng([seed, 1])
+    if len(zcorn) < 3 or rng.random() < 0.6:
+        return
+    k = int(rng.integers(1, len(zcorn)))
+    zcorn[k:, :, :, :, :int(rng.integers(1, zcorn.shape[4] + 1))] += rng.uniform(0.2, 3)
+
+
 class Deck:
     def __init__(self, seed):
         self.rng = np.random.default_rng(seed)
         self.lines = []
         self.n, self.coord, self.zcorn = geometry(self.rng)
+        open_gap(self.zcorn, seed)
 
     def text(self, *lines):
         self.lines.extend(lines)

@@ -3,6 +3,7 @@
 
 #include "tests/support/grids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -198,6 +199,131 @@ CornerPointGrid random_faults(Dimensions dimensions, std::uint32_t seed) {
   CornerPointGrid grid = make(recipe);
   for (auto& active : grid.active) active = uniform(0.0, 1.0) < 0.85 ? 1 : 0;
   return grid;
+}
+
+namespace {
+
+/// The engine's numbers are the standard's; those of std distributions differ between libraries.
+class Dice {
+ public:
+  explicit Dice(std::uint32_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Pillars of a grid in one of five moods; true when all are parallel.
+bool place_pillars(CornerPointGrid& grid, Dice& dice) {
+  const int mood = static_cast<int>(dice.uniform(0.0, 5.0));
+  const Vec3 common = mood == 0 ? Vec3::Zero() : Vec3(dice.uniform(-6.0, 6.0), dice.uniform(-6.0, 6.0), 0.0);
+  const double jitter = mood == 2 ? 6.0 : 0.0;                        // concave columns
+  const double skew = mood == 3 ? 2.0 : mood == 4 ? 12.0 : 0.0;       // 12 m: pillars cross
+  const double coincide = mood != 0 && dice.chance(0.3) ? 0.1 : 0.0;  // with the pillar before
+  const std::int64_t nx = grid.dimensions[0];
+  for (std::int64_t j = 0; j <= grid.dimensions[1]; ++j)
+    for (std::int64_t i = 0; i <= nx; ++i) {
+      double* p = &grid.coord[static_cast<std::size_t>(6 * (i + (nx + 1) * j))];
+      if (i > 0 && dice.chance(coincide)) {
+        std::copy(p - 6, p, p);
+        continue;
+      }
+      for (int axis = 0; axis < 2; ++axis) {
+        p[axis] += dice.uniform(-jitter, jitter);
+        p[3 + axis] = p[axis] + common[axis] + dice.uniform(-skew, skew);
+      }
+    }
+  return skew == 0.0;
+}
+
+/// How the layers of a grid are drawn.
+struct LayerMood {
+  double flat = 0.0;      ///< chance of no thickness
+  double thin = 0.0;      ///< chance of less than the merge tolerance
+  double gap = 0.0;       ///< chance of a void over a layer
+  double overlap = 0.0;   ///< chance of a layer that begins above the base over it
+  double reversed = 0.0;  ///< chance of a corner whose base lies above its top
+};
+
+LayerMood layer_mood(Dice& dice) {
+  LayerMood mood;
+  mood.flat = dice.chance(0.7) ? 0.25 : 0.0;
+  mood.thin = dice.chance(0.2) ? 0.1 : 0.0;
+  mood.gap = dice.chance(0.4) ? 0.15 : 0.0;
+  mood.overlap = dice.chance(0.3) ? 0.1 : 0.0;
+  mood.reversed = dice.chance(0.2) ? 0.05 : 0.0;
+  return mood;
+}
+
+/// Depths of one corner of one column, top and base of each layer.
+void draw_corner(CornerPointGrid& grid, Cell at, Corner corner, double depth, const LayerMood& mood, Dice& dice) {
+  for (at[2] = 0; at[2] < grid.dimensions[2]; ++at[2]) {
+    if (dice.chance(mood.gap)) depth += dice.uniform(0.0, 3.0);
+    if (dice.chance(mood.overlap)) depth -= dice.uniform(0.0, 3.0);
+    grid.zcorn[grid.zcorn_index(at, corner[0], corner[1], 0)] = depth;
+    if (dice.chance(mood.thin))
+      depth += 3e-7;
+    else if (dice.chance(mood.reversed))
+      depth -= dice.uniform(0.0, 2.0);
+    else if (!dice.chance(mood.flat))
+      depth += dice.chance(0.4) ? dz : dice.uniform(0.1, 2.0 * dz);
+    grid.zcorn[grid.zcorn_index(at, corner[0], corner[1], 1)] = depth;
+  }
+}
+
+void draw_layers(CornerPointGrid& grid, Dice& dice) {
+  const LayerMood mood = layer_mood(dice);
+  const double faulted = dice.uniform(0.0, 1.0);
+  const double tilt = dice.chance(0.5) ? 6.0 : 0.0;
+  for (std::int64_t j = 0; j < grid.dimensions[1]; ++j)
+    for (std::int64_t i = 0; i < grid.dimensions[0]; ++i) {
+      const double shift = dice.chance(faulted) ? dice.uniform(-12.0, 12.0) : 0.0;
+      // Whole metres now and then, so that lines of both sides meet on a pillar or coincide.
+      const bool is_level = dice.chance(0.5);
+      for (int c = 0; c < 4; ++c) {
+        const double depth = top + (is_level ? std::round(shift) : shift + dice.uniform(-tilt, tilt));
+        draw_corner(grid, {i, j, 0}, {c & 1, c >> 1, 0}, depth, mood, dice);
+      }
+    }
+}
+
+/// The same layers, numbered upwards.
+CornerPointGrid numbered_upwards(const CornerPointGrid& down) {
+  CornerPointGrid up = down;
+  const std::int64_t last = down.dimensions[2] - 1;
+  for (std::int64_t c = 0; c < up.cell_count(); ++c) {
+    const auto [i, j, k] = up.ijk(HostCellId(c));
+    for (int corner = 0; corner < 8; ++corner)
+      up.zcorn[up.zcorn_index({i, j, last - k}, corner & 1, (corner >> 1) & 1, 1 - (corner >> 2))] =
+          down.zcorn[down.zcorn_index({i, j, k}, corner & 1, (corner >> 1) & 1, corner >> 2)];
+  }
+  return up;
+}
+
+}  // namespace
+
+RandomHost random_host(Dimensions dimensions, std::uint32_t seed) {
+  Dice dice(seed);
+  RandomHost out;
+  out.grid = box(dimensions);
+  CornerPointGrid& grid = out.grid;
+  out.has_parallel_pillars = place_pillars(grid, dice);
+  draw_layers(grid, dice);
+  const double inactive = dice.chance(0.6) ? 0.15 : 0.0;
+  for (auto& active : grid.active) active = dice.chance(inactive) ? 0 : 1;
+  for (double& porosity : grid.porosity) porosity = dice.uniform(0.01, 0.3);
+  if (dice.chance(0.3)) grid.edits.least_pore_volume = dice.uniform(10.0, 150.0);
+  if (dice.chance(0.4)) {
+    grid.connects_across_pinch = true;
+    grid.edits.pinch = PinchOptions{dice.uniform(0.0, 2.0), dice.chance(0.5), dice.uniform(0.0, 4.0), {}, {}};
+  }
+  if (dice.chance(0.3))
+    for (std::size_t n = 1; n < grid.coord.size(); n += 3) grid.coord[n] = -grid.coord[n];
+  if (dice.chance(0.3)) grid = numbered_upwards(grid);
+  return out;
 }
 
 std::vector<Named> zoo() {

@@ -49,6 +49,15 @@ CornerPointGrid with_inactive(Dimensions dimensions, double throw_);
 /// Every column has its own throw, tilt and layer thicknesses, some layers without thickness, some pillars slanted.
 CornerPointGrid random_faults(Dimensions dimensions, std::uint32_t seed);
 
+struct RandomHost {
+  CornerPointGrid grid;
+  bool has_parallel_pillars = false;
+};
+/// All that a grid can do, each thing by the seed's chance: throws, layers without thickness or thinner than the merge
+/// tolerance, gaps, overlaps, reversed corners, slanted, crossing and coinciding pillars, twisted and concave columns,
+/// inactive cells, MINPV, PINCH, left-handed, layers numbered upwards. It may have no cell with a volume.
+RandomHost random_host(Dimensions dimensions, std::uint32_t seed);
+
 struct Named {
   std::string name;
   CornerPointGrid grid;

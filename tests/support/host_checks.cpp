@@ -50,6 +50,12 @@ std::size_t loose_edges(const HostMesh& mesh, const std::vector<SeenFace>& faces
   return loose;
 }
 
+bool has_cut_top(const HostMesh& mesh, const std::vector<SeenFace>& faces) {
+  return std::any_of(faces.begin(), faces.end(), [&](const SeenFace& seen) {
+    return mesh.faces.axis[seen.face] == Axis::k && mesh.faces.loop(seen.face).size() > 4;
+  });
+}
+
 void check_loops(const HostMesh& mesh, HostCheck& out) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto loop = mesh.faces.loop(FaceId(f));
@@ -64,7 +70,104 @@ void check_loops(const HostMesh& mesh, HostCheck& out) {
   }
 }
 
+/// Sets that are joined pair by pair.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count), count_(count) {
+    for (std::size_t n = 0; n < count; ++n) parent_[n] = n;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    if (a != b) --count_;
+    parent_[a] = b;
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  std::size_t root(std::size_t a) const {
+    while (parent_[a] != a) a = parent_[a];
+    return a;
+  }
+  std::vector<std::size_t> parent_;
+  std::size_t count_;
+};
+
+/// One directed edge of a cell's surface: from one corner of a face to the next.
+struct HalfEdge {
+  VertexId from;
+  VertexId to;
+  std::size_t face;    ///< of the cell
+  std::size_t corner;  ///< of the cell's list of corners: where it begins
+  std::size_t next;    ///< where it ends
+};
+
+struct Surface {
+  std::int64_t euler = 0;
+  bool is_whole = false;  ///< one piece, and one fan of faces at each vertex
+};
+
+Surface surface_of(const HostMesh& mesh, const std::vector<SeenFace>& faces) {
+  std::vector<HalfEdge> edges;
+  std::vector<VertexId> vertices;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto loop = mesh.faces.loop(faces[f].face);
+    const std::size_t n = loop.size();
+    const std::size_t begin = vertices.size();
+    for (std::size_t v = 0; v < n; ++v) vertices.push_back(faces[f].outward ? loop[v] : loop[n - 1 - v]);
+    for (std::size_t v = 0; v < n; ++v)
+      edges.push_back({vertices[begin + v], vertices[begin + (v + 1) % n], f, begin + v, begin + (v + 1) % n});
+  }
+  const auto before = [](const HalfEdge& a, const HalfEdge& b) {
+    return std::pair(a.from, a.to) < std::pair(b.from, b.to);
+  };
+  std::sort(edges.begin(), edges.end(), before);
+  Sets pieces(faces.size());
+  Sets fans(vertices.size());
+  for (const HalfEdge& edge : edges) {
+    const HalfEdge reverse{edge.to, edge.from, 0, 0, 0};
+    const auto twin = std::lower_bound(edges.begin(), edges.end(), reverse, before);
+    if (twin == edges.end() || before(reverse, *twin)) continue;  // a loose edge: check_host() says so
+    pieces.join(edge.face, twin->face);
+    fans.join(edge.corner, twin->next);
+  }
+  std::sort(vertices.begin(), vertices.end());
+  const auto distinct = std::unique(vertices.begin(), vertices.end()) - vertices.begin();
+  Surface out;
+  out.euler = distinct - static_cast<std::int64_t>(edges.size() / 2) + static_cast<std::int64_t>(faces.size());
+  out.is_whole = pieces.count() == 1 && fans.count() == static_cast<std::size_t>(distinct);
+  return out;
+}
+
+void check_for_copies(const HostMesh& mesh, TopologyCheck& out) {
+  std::vector<std::vector<std::int64_t>> keys;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto loop = mesh.faces.loop(FaceId(f));
+    auto& key = keys.emplace_back();
+    for (const VertexId v : loop) key.push_back(v.value());
+    std::sort(key.begin(), key.end());
+    for (const HostCellId cell : mesh.faces.cells[FaceId(f)]) key.push_back(cell.value());
+  }
+  std::sort(keys.begin(), keys.end());
+  if (std::adjacent_find(keys.begin(), keys.end()) != keys.end())
+    out.faults.emplace_back("two faces have the same vertices and the same cells");
+}
+
 }  // namespace
+
+TopologyCheck check_topology(const HostMesh& mesh) {
+  TopologyCheck out;
+  check_for_copies(mesh, out);
+  const auto faces = faces_of_cells(mesh);
+  for (std::size_t c = 0; c < faces.size(); ++c) {
+    if (mesh.exists[HostCellId(c)] == 0) continue;
+    const Surface surface = surface_of(mesh, faces[c]);
+    ++(surface.is_whole ? out.spheres : out.others);
+    if (surface.is_whole && surface.euler != 2)
+      out.faults.push_back(fmt::format("cell {} has the Euler characteristic {}", c, surface.euler));
+  }
+  return out;
+}
 
 std::vector<Vec3> loop_points(const HostMesh& mesh, FaceId face) {
   std::vector<Vec3> points;
@@ -101,7 +204,14 @@ HostCheck check_host(const CornerPointGrid& grid, const HostMesh& mesh) {
     }
     out.worst_openness = std::max(out.worst_openness, sum.norm() / area);
     const double expected = mesh.volume[HostCellId(c)];
-    out.worst_volume = std::max(out.worst_volume, std::abs(volume / expected - 1.0));
+    const double difference = std::abs(volume / expected - 1.0);
+    out.worst_volume = std::max(out.worst_volume, difference);
+    if (expected > sliver_volume) {
+      const bool is_cut = has_cut_top(mesh, faces[c]);
+      if (!is_cut) out.worst_uncut_volume = std::max(out.worst_uncut_volume, difference);
+      ++(is_cut ? out.cut_cells : out.uncut_cells);
+      out.far_off_cells += difference > 0.02 ? 1 : 0;
+    }
     if (!(expected > 0.0)) out.faults.push_back(fmt::format("cell {} has volume {}", c, expected));
   }
   return out;
