@@ -11,9 +11,11 @@
 #include "algorithm/host_mesh.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -55,13 +57,13 @@ void measure_row(const Work& work, std::int64_t j, RowValues<double>& volume) {
   for (std::int64_t i = 0; i < work.nx(); ++i) {
     const ColumnCorners column(work.mesh.corners, work.mesh.vertices, i, j);
     double* const out = volume.column(i);
-    for (std::int64_t place = 0; place < work.nz(); ++place)
-      out[place] =
-          column.has_thickness(place)
-              ? bilinear_hexahedron_volume({column.at(0, place, 0), column.at(1, place, 0), column.at(2, place, 0),
-                                            column.at(3, place, 0), column.at(0, place, 1), column.at(1, place, 1),
-                                            column.at(2, place, 1), column.at(3, place, 1)})
-              : std::numeric_limits<double>::quiet_NaN();
+    for (std::int64_t place = 0; place < work.nz(); ++place) {
+      out[place] = std::numeric_limits<double>::quiet_NaN();
+      if (!column.has_thickness(place)) continue;
+      const auto corners = column.corners(place);
+      const double value = bilinear_hexahedron_volume(corners);
+      out[place] = is_rounding(value, corners) ? 0.0 : value;
+    }
   }
 }
 
@@ -89,77 +91,48 @@ void measure(Work& work) {
   work.mesh.left_handed = work.mirrored != work.mesh.corners.upside_down;
 }
 
-/// What classify() found in one row of cells along i.
-struct RowCounts {
-  std::int64_t folded = 0;  ///< active, with thickness but no positive volume
-  std::int64_t too_small = 0;
-  HostCellId first_folded;
-};
+/// Turns a row's volumes the right way; cells that are folded over have none.
+void unfold_row(Work& work, std::int64_t first) {
+  for (std::int64_t c = first; c < first + work.nx(); ++c) {
+    double& volume = work.mesh.volume[HostCellId(c)];
+    if (work.mirrored) volume = -volume;
+    if (!(volume > 0.0)) volume = 0.0;  // also what is not a number
+  }
+}
 
-RowCounts classify_row(Work& work, std::int64_t first, bool knows_pore_volumes) {
-  RowCounts counts;
+/// Of one row; returns how many active cells are below MINPV.
+std::int64_t classify_row(Work& work, std::int64_t first, bool knows_pore_volumes) {
+  std::int64_t below = 0;
   for (std::int64_t c = first; c < first + work.nx(); ++c) {
     const HostCellId cell(c);
     const bool active = work.grid.active[cell.index()] != 0;
     const bool has_volume = active && work.mesh.volume[cell] > 0.0;
     const bool is_too_small =
         has_volume && knows_pore_volumes && work.mesh.pore_volume[cell] < least_pore_volume(work.grid, cell);
-    counts.too_small += is_too_small ? 1 : 0;
+    below += is_too_small ? 1 : 0;
     const bool exists = has_volume && !is_too_small;
     work.mesh.exists[cell] = exists ? 1 : 0;
     work.states[cell.index()] = exists                    ? HostCellState::exists
                                 : active && !is_too_small ? HostCellState::none
                                                           : HostCellState::inactive;
   }
-  return counts;
-}
-
-/// Turns the volumes the right way; cells that are folded over have none.
-RowCounts unfold_row(Work& work, std::int64_t first) {
-  RowCounts counts;
-  for (std::int64_t c = first; c < first + work.nx(); ++c) {
-    const HostCellId cell(c);
-    double& volume = work.mesh.volume[cell];
-    if (work.mirrored) volume = -volume;
-    if (volume <= 0.0 && work.grid.active[cell.index()] != 0 && counts.folded++ == 0) counts.first_folded = cell;
-    if (!(volume > 0.0)) volume = 0.0;  // also what is not a number
-  }
-  return counts;
-}
-
-/// `of_row(first cell)` for every row of cells, in parallel; the counts in order.
-template <class OfRow>
-RowCounts count_rows(const Work& work, const OfRow& of_row) {
-  const std::int64_t rows = work.ny() * work.nz();
-  std::vector<RowCounts> counts(static_cast<std::size_t>(rows));
-  tbb::parallel_for(std::int64_t{0}, rows,
-                    [&](std::int64_t r) { counts[static_cast<std::size_t>(r)] = of_row(r * work.nx()); });
-  RowCounts sum;
-  for (const RowCounts& row : counts) {
-    if (sum.folded == 0) sum.first_folded = row.first_folded;
-    sum.folded += row.folded;
-    sum.too_small += row.too_small;
-  }
-  return sum;
+  return below;
 }
 
 void classify(Work& work) {
   const auto cells = static_cast<std::size_t>(work.grid.cell_count());
-  const RowCounts folded = count_rows(work, [&](std::int64_t first) { return unfold_row(work, first); });
+  const std::int64_t rows = work.ny() * work.nz();
+  tbb::parallel_for(std::int64_t{0}, rows, [&](std::int64_t r) { unfold_row(work, r * work.nx()); });
   work.mesh.pore_volume = source_pore_volumes(work.grid, work.mesh.volume);
   work.states.resize(cells);
   work.mesh.exists.raw().resize(cells);
   const bool knows_pore_volumes = has_pore_volumes(work.grid);
-  const RowCounts small =
-      count_rows(work, [&](std::int64_t first) { return classify_row(work, first, knows_pore_volumes); });
-  if (small.too_small > 0)
+  std::atomic<std::int64_t> below = 0;
+  tbb::parallel_for(std::int64_t{0}, rows,
+                    [&](std::int64_t r) { below += classify_row(work, r * work.nx(), knows_pore_volumes); });
+  if (below > 0)
     work.mesh.notes.push_back(
-        fmt::format("{} active cells have less pore volume than MINPV and were left out.", small.too_small));
-  if (folded.folded == 0) return;
-  const auto [i, j, k] = work.grid.ijk(folded.first_folded);
-  work.mesh.notes.push_back(
-      fmt::format("{} active cells have thickness but no positive volume and were left out; the first is ({}, {}, {}).",
-                  folded.folded, i + 1, j + 1, k + 1));
+        fmt::format("{} active cells have less pore volume than MINPV and were left out.", below.load()));
 }
 
 /// `rows`: of the two columns on the strip's sides; null while faces are not written yet.

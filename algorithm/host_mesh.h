@@ -83,6 +83,13 @@ struct HostMesh {
 /// Corners of one pillar closer than this are one vertex, m. Decks give three decimals and EGRID files 24 bits.
 inline constexpr double pillar_merge_tolerance = 1e-6;
 
+/// True where a cell's volume, m3, is rounding: where pillars coincide it has either sign. Below 10^-12 of its
+/// diagonals' cube; one micrometre of a hundred metres is 10^4 times as much.
+inline bool is_rounding(double volume, const std::array<Vec3, 8>& corners) {
+  const double square = (corners[7] - corners[0]).squaredNorm() + (corners[6] - corners[1]).squaredNorm();
+  return volume * volume <= 1e-24 * square * square * square;
+}
+
 /// Builds the host. Throws InvalidInput where validate(grid) would, or when no active cell has a volume.
 HostMesh build_host_mesh(const CornerPointGrid& grid);
 

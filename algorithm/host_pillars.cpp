@@ -7,13 +7,11 @@
 
 #include "algorithm/host_pillars.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <atomic>
-#include <limits>
+#include <functional>
 
 #include "algorithm/ordered_pipeline.h"
 
@@ -56,26 +54,19 @@ class DepthLists {
       double* to = depth_.data() + l;
       for (std::int64_t list = 0; list < count; ++list, to += stride_) *to = row[list];
     }
-    is_mended_ = false;
     for (std::int64_t list = 0; list < count; ++list) make_rise(depth_.data() + list * stride_);
   }
   /// Of column i at its low (0) or high (1) side along i.
   [[nodiscard]] const double* at(std::int64_t i, int di) const { return depth_.data() + (2 * i + di) * stride_; }
-  [[nodiscard]] bool is_mended() const { return is_mended_; }
 
  private:
-  void make_rise(double* depth) {
-    for (std::int64_t l = 1; l < levels_; ++l) {
-      if (depth[l] >= depth[l - 1]) continue;
-      is_mended_ = is_mended_ || depth[l - 1] - depth[l] > pillar_merge_tolerance;
-      depth[l] = depth[l - 1];
-    }
+  void make_rise(double* depth) const {
+    for (std::int64_t l = 1; l < levels_; ++l) depth[l] = std::max(depth[l], depth[l - 1]);
   }
 
   std::int64_t levels_ = 0;
   std::int64_t stride_ = 0;
   std::vector<double> depth_;
-  bool is_mended_ = false;
 };
 
 /// The different lists of levels that meet at one pillar, and where their ranks go.
@@ -134,24 +125,18 @@ class PillarResolver {
   PillarResolver(const CornerPointGrid& grid, HostCorners& corners) : grid_(grid), corners_(corners) {}
 
   /// Rows [begin, end) of pillars.
-  void resolve(std::int64_t begin, std::int64_t end, RowNodes& out) {
+  void resolve(std::int64_t begin, std::int64_t end, RowNodes& out) const {
     out.nodes.clear();
     out.count.clear();
     for (std::int64_t j = begin; j < end; ++j) {
-      if (j > 0) read(out.lists[0], j - 1, 1);
-      if (j < grid_.dimensions[1]) read(out.lists[1], j, 0);
+      if (j > 0) out.lists[0].read(grid_, corners_.upside_down, j - 1, 1);
+      if (j < grid_.dimensions[1]) out.lists[1].read(grid_, corners_.upside_down, j, 0);
       for (std::int64_t i = 0; i <= grid_.dimensions[0]; ++i) resolve_pillar(i, j, out);
     }
   }
-  [[nodiscard]] bool has_mended() const { return has_mended_; }
 
  private:
-  void read(DepthLists& lists, std::int64_t j, int side) {
-    lists.read(grid_, corners_.upside_down, j, side);
-    if (lists.is_mended()) has_mended_ = true;
-  }
-
-  void resolve_pillar(std::int64_t i, std::int64_t j, RowNodes& out) {
+  void resolve_pillar(std::int64_t i, std::int64_t j, RowNodes& out) const {
     const std::int64_t levels = corners_.levels();
     PillarLists different;
     std::array<std::pair<std::int32_t*, std::int32_t*>, 4> same{};  // ranks of an equal list, and their place
@@ -184,59 +169,7 @@ class PillarResolver {
 
   const CornerPointGrid& grid_;
   HostCorners& corners_;
-  std::atomic<bool> has_mended_ = false;
 };
-
-/// Cells whose levels had to be moved.
-struct Mended {
-  std::int64_t reversed = 0;     ///< base above the top
-  std::int64_t overlapping = 0;  ///< top above the base of the cell over it
-  std::int64_t first_reversed = std::numeric_limits<std::int64_t>::max();
-  std::int64_t first_overlapping = std::numeric_limits<std::int64_t>::max();
-};
-
-/// Counts them as the lists are made to rise; slower than that, and only for grids that have some.
-Mended count_mended(const CornerPointGrid& grid, const HostCorners& corners) {
-  Mended mended;
-  std::vector<double> above(static_cast<std::size_t>(4 * grid.dimensions[0] * grid.dimensions[1]));
-  for (std::int64_t l = 0; l < corners.levels(); ++l) {
-    for (std::int64_t j = 0; j < grid.dimensions[1]; ++j) {
-      for (std::int64_t i = 0; i < grid.dimensions[0]; ++i) {
-        const std::int64_t k2 = corners.upside_down ? corners.levels() - 1 - l : l;
-        double worst = 0.0;
-        for (int corner = 0; corner < 4; ++corner) {
-          const double depth = grid.zcorn[grid.zcorn_index({i, j, 0}, corner & 1, corner >> 1, 0) +
-                                          static_cast<std::size_t>(4 * grid.dimensions[0] * grid.dimensions[1] * k2)];
-          double& last = above[static_cast<std::size_t>(4 * (i + grid.dimensions[0] * j) + corner)];
-          if (l > 0) worst = std::max(worst, last - depth);
-          last = l > 0 ? std::max(last, depth) : depth;
-        }
-        if (worst <= pillar_merge_tolerance) continue;
-        const std::int64_t cell = grid.cell_id(i, j, corners.layer(l / 2)).value();
-        (l % 2 == 1 ? mended.reversed : mended.overlapping) += 1;
-        std::int64_t& first = l % 2 == 1 ? mended.first_reversed : mended.first_overlapping;
-        first = std::min(first, cell);
-      }
-    }
-  }
-  return mended;
-}
-
-std::string where(const CornerPointGrid& grid, std::int64_t cell) {
-  const auto [i, j, k] = grid.ijk(HostCellId(cell));
-  return fmt::format("({}, {}, {})", i + 1, j + 1, k + 1);
-}
-
-void note(const CornerPointGrid& grid, const Mended& mended, std::vector<std::string>& notes) {
-  if (mended.reversed > 0)
-    notes.push_back(
-        fmt::format("{} cells have corners in reverse order, which were given no thickness; the first is {}.",
-                    mended.reversed, where(grid, mended.first_reversed)));
-  if (mended.overlapping > 0)
-    notes.push_back(
-        fmt::format("{} cells begin above the base of the cell over them and were cut off there; the first is {}.",
-                    mended.overlapping, where(grid, mended.first_overlapping)));
-}
 
 }  // namespace
 
@@ -252,7 +185,7 @@ PillarNodes resolve_pillars(const CornerPointGrid& grid) {
   // Without faults each pillar has nz + 1 nodes.
   out.nodes.reserve(static_cast<std::size_t>((nx + 1) * (ny + 1) * (nz + 1)));
 
-  PillarResolver resolver(grid, corners);
+  const PillarResolver resolver(grid, corners);
   constexpr std::int64_t pillars_in_a_piece = 512;
   run_in_order<RowNodes>(
       ny + 1, std::max<std::int64_t>(1, pillars_in_a_piece / (nx + 1)),
@@ -265,7 +198,6 @@ PillarNodes resolve_pillars(const CornerPointGrid& grid) {
         }
         out.nodes.raw().insert(out.nodes.end(), rows.nodes.begin(), rows.nodes.end());
       });
-  if (resolver.has_mended()) note(grid, count_mended(grid, corners), out.notes);
   return out;
 }
 

@@ -33,10 +33,7 @@ void HostRow::read_conductances(const CornerPointGrid& grid, const HostCorners& 
       for (std::size_t axis = 0; axis < 3; ++axis)
         k[axis] = grid.permeability[axis].empty() ? 0.0 : permeability_[axis].column(i)[place];
       const double ntg = grid.net_to_gross.empty() ? 1.0 : net_to_gross_.column(i)[place];
-      out[place] = host_conductances(
-          {column.at(0, place, 0), column.at(1, place, 0), column.at(2, place, 0), column.at(3, place, 0),
-           column.at(0, place, 1), column.at(1, place, 1), column.at(2, place, 1), column.at(3, place, 1)},
-          {k[0] * ntg, k[1] * ntg, k[2]});
+      out[place] = host_conductances(column.corners(place), {k[0] * ntg, k[1] * ntg, k[2]});
     }
   }
 }

@@ -29,6 +29,11 @@ class ColumnCorners {
     const auto c = static_cast<std::size_t>(corner);
     return node_[c][rank_[c][2 * place + lower]];
   }
+  /// In the order of depths: tops at 0 … 3, bases at 4 … 7.
+  [[nodiscard]] std::array<Vec3, 8> corners(std::int64_t place) const {
+    return {at(0, place, 0), at(1, place, 0), at(2, place, 0), at(3, place, 0),
+            at(0, place, 1), at(1, place, 1), at(2, place, 1), at(3, place, 1)};
+  }
   [[nodiscard]] std::int32_t rank(int corner, std::int64_t level) const {
     return rank_[static_cast<std::size_t>(corner)][level];
   }

@@ -31,9 +31,6 @@ constexpr double tolerance = pillar_merge_tolerance;
 constexpr std::size_t places_kept = 10;
 /// Sines and scaled Jacobians below this are rounding: coordinates have 16 digits, cells are 10^-5 of them.
 constexpr double rounding = 1e-10;
-/// A volume below this part of its diagonals' cube is rounding; one micrometre of a hundred metres is 10^4 times as
-/// much.
-constexpr double no_volume = 1e-12;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -307,9 +304,8 @@ class ColumnCheck {
 
   void cell(const Place& at, const std::array<Depths, 2>& sides) {
     const std::array<Vec3, 8> points = corners(at, sides);
-    // Where pillars coincide the volume is rounding, of either sign.
-    const double nothing = no_volume * std::pow((points[7] - points[0]).norm() + (points[6] - points[1]).norm(), 3);
-    if (const double volume = orientation_ * bilinear_hexahedron_volume(points); !(volume > nothing)) {
+    if (const double volume = orientation_ * bilinear_hexahedron_volume(points);
+        !(volume > 0.0) || is_rounding(volume, points)) {
       add(out_, GridOddity::negative_volume, {at, no_place, -volume});
       return;
     }
