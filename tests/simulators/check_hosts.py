@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The wellknit authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the host of every public grid, without wells, and has an independent checker compare it with the grid's own corner points.
+"""Builds the host of every public grid, without wells; a checker compares it with the grid's own corner points.
 
     check_hosts.py WELLKNIT SHARED
 
-SHARED/tools/check_mesh.py is the checker, SHARED/data the grids; exits 77 without them. Prints a line a grid: the cells, or the one line that
-refused it. A grid that is not in a table of this file is built and checked as it stands.
+SHARED/tools/check_mesh.py is the checker, which shares no code with the project, SHARED/data the grids; exits 77 without
+them. Prints a line a grid: the cells, or the one line that refused it. A grid that is not in a table of this file is built and checked as it stands.
 """
 import importlib.util
 import pathlib
@@ -21,13 +21,13 @@ except ImportError as error:
 
 FOOT = 0.3048  # m
 
-# Where the checker needs a word: the text grids to compare with (default: the grid itself; none: only the mesh is checked), the length unit
-# of those in m, their dimensions where they do not say, limits, and why.
+# Where the checker needs a word: the text grids to compare with (default: the grid itself; none: only the mesh is
+# checked), the length unit of those in m, their dimensions where they do not say, limits, and why.
 SPECIAL = {
     "odd/sixcells2_hdr2.bgrdecl": {"grdecl": ["odd/sixcells2_hdr2.grdecl"], "why": "compared with its text twin"},
     "odd/sixcells2_described_zoverlap.grdecl": {
         "limits": {"total_volume_error": 0.005, "host_cell_volume_error": 0.05},
-        "why": "cell (1,1,2) begins 20 m above the base of (1,1,1) at one corner and is cut off there, as in Flow, whose PORV is the same"},
+        "why": "cell (1,1,2) begins 20 m above the base of (1,1,1) and is cut off there; Flow's PORV is the same"},
     "reek/reek_sim.grdecl": {"include": ["reek/reek_sim_poro.grdecl", "reek/reek_sim_faults.grdecl"],
                              "grdecl": ["reek/reek_sim.grdecl", "reek/reek_sim_poro.grdecl"]},
     "reek/reek_sim.bgrdecl": {"grdecl": [], "why": "single precision at UTM coordinates: half a metre off the text"},
@@ -36,7 +36,8 @@ SPECIAL = {
     "spe9/SPE9.DATA": {"grdecl": ["spe9/SPE9.GRDECL"], "unit": FOOT,
                        "why": "DX, DY, DZ, TOPS: compared with the corner points of the same model"},
     "model5/MODEL5.DATA": {},
-    "nwm/NWM.data": {"grdecl": ["nwm/coord.inc", "nwm/zcorn.inc", "nwm/actnum.inc", "nwm/NWM.data"], "dimensions": (40, 30, 8)},
+    "nwm/NWM.data": {"grdecl": ["nwm/coord.inc", "nwm/zcorn.inc", "nwm/actnum.inc", "nwm/NWM.data"],
+                     "dimensions": (40, 30, 8)},
 }
 
 # What must be refused: a deck around a public grid, and a part of the one line that says why.
@@ -113,7 +114,7 @@ def check_refusal(wellknit, data, name, folder):
     done = subprocess.run([wellknit, "build", str(path), "-o", str(mesh)], capture_output=True, text=True, check=False)
     lines = done.stderr.strip().splitlines()
     if done.returncode != 1 or len(lines) != 1 or expected not in lines[0] or mesh.exists():
-        return [f"exit {done.returncode} and '{done.stderr.strip()}'; expected exit 1 and one line with '{expected}'"], ""
+        return [f"exit {done.returncode} and '{done.stderr.strip()}'; expected exit 1, one line with '{expected}'"], ""
     return [], "refused: " + lines[0].replace(str(folder) + "/", "")
 
 

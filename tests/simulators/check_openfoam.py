@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The wellknit authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""OpenFOAM's checkMesh on the polyMesh of whole models: no topological error, and its own figures equal to the mesh file's.
+"""OpenFOAM's checkMesh on the polyMesh of whole models: no topological error, and figures equal to the mesh file's.
 
     check_openfoam.py WELLKNIT PROJECT SHARED [FIRST COUNT]
 
-The models are the example with wells, Reek with its faults file, SPE9 with its wells, and COUNT generated faulted ones from seed FIRST on. Exits
-77 without checkMesh (Debian package openfoam), numpy or h5py; models whose data is absent are left out. Hosts without wells must also have every
-boundary face in the patch that the grid's pillars say. What counts as an error and what does
-not is in docs/formats/openfoam.md.
+The models are the example with wells, Reek with its faults file, SPE9 with its wells, the paper's case at three
+deformations, and COUNT generated faulted ones from seed FIRST on. Exits 77 without checkMesh (Debian package openfoam),
+numpy or h5py; models whose data is absent are left out. Hosts of faulted grids must also have every boundary face in
+the patch that the grid's pillars say. What counts as an error and what does not is in docs/formats/openfoam.md.
 """
 import json
 import os
@@ -35,23 +35,42 @@ NOTHING = 1e-12  # below this share of the largest, a face or cell is rounding, 
 SIDES = ("i_min", "i_max", "j_min", "j_max", "k_min", "k_max")
 
 
-def run_check_mesh(case):
+def run_openfoam(program, case, *options):
     environment = dict(os.environ)
     # Debian's package keeps its etc folder there and sets nothing.
     environment.setdefault("WM_PROJECT_DIR", "/usr/share/openfoam")
-    done = subprocess.run(["checkMesh", "-allTopology", "-allGeometry", "-case", str(case)], capture_output=True, text=True,
-                          check=False, env=environment)
-    if done.returncode != 0 or "\nEnd\n" not in done.stdout:
-        raise RuntimeError(f"checkMesh ends with {done.returncode}: {(done.stdout + done.stderr)[-600:]}")
+    command = [program, "-case", str(case), *options]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    if done.returncode != 0 or "\nEnd" not in done.stdout:
+        raise RuntimeError(f"{program} ends with {done.returncode}: {(done.stdout + done.stderr)[-600:]}")
     return done.stdout
 
 
+def field_faults(mesh_file, case):
+    """Permeability and porosity as OpenFOAM's foamToVTK reads them, against the mesh file's; it writes six digits."""
+    if shutil.which("foamToVTK") is None:
+        return []
+    run_openfoam("foamToVTK", case, "-ascii", "-no-boundary", "-no-point-data")
+    text = next((case / "VTK").glob("*/internal.vtu")).read_text(encoding="ascii")
+    with h5py.File(mesh_file) as f:
+        tensor = np.zeros((len(f["cells/volume"]), 9))
+        tensor[:, [0, 4, 8]] = f["cells/permeability"][...]
+        expected = {"K": tensor.ravel(), "porosity": f["cells/pore_volume"][...] / f["cells/volume"][...]}
+    faults = []
+    for name, ours in expected.items():
+        theirs = np.array(re.search(f"Name='{name}'[^>]*>([^<]*)<", text).group(1).split(), float)
+        if theirs.shape != ours.shape or not np.allclose(theirs, ours, rtol=2e-5, atol=0):
+            faults.append(f"field {name}: not what the mesh file has")
+    return faults
+
+
 def complaints(output):
-    """What checkMesh complains of: failed checks of the topology, what else it counts there, and the failed checks of the geometry."""
+    """Failed checks of the topology, what else is counted there, and failed checks of the geometry."""
     topology = output[output.index("Checking topology..."):output.index("Checking geometry...")]
     geometry = output[output.index("Checking geometry..."):]
     stars = lambda text: [" ".join(line.replace("***", "").split()) for line in text.splitlines() if "***" in line]
-    counted = [" ".join(line.replace("<<", "").split()) for line in topology.splitlines() if "<<" in line or "Number of identical" in line]
+    counted = [" ".join(line.replace("<<", "").split()) for line in topology.splitlines()
+               if "<<" in line or "Number of identical" in line]
     return stars(topology), counted, stars(geometry)
 
 
@@ -90,7 +109,7 @@ def one_run(loop, shared):
 
 
 class Mesh:
-    """The mesh file with OpenFOAM's definitions of centres: cells in pyramids over their faces, around the mean of those."""
+    """The mesh file with OpenFOAM's centres: cells are pyramids over their faces, around the mean of those."""
 
     def __init__(self, path):
         with h5py.File(path) as f:
@@ -101,7 +120,8 @@ class Mesh:
             self.count = len(f["cells/volume"])
             self.source = f["cells/source_cell"][...]
             self.dimensions = f.attrs["source_dimensions"]
-            self.wells = {name.decode(): float(f["wells/" + name.decode()].attrs["drainage_radius"]) for name in f["wells_order"][...]}
+            names = [name.decode() for name in f["wells_order"][...]]
+            self.wells = {name: float(f["wells/" + name].attrs["drainage_radius"]) for name in names}
         self.face = np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
         after = np.arange(len(self.corner)) + 1
         after[self.start[1:] - 1] = self.start[:-1]
@@ -138,7 +158,8 @@ class Mesh:
     def angles(self):
         line = self.middle[self.cells[self.inner, 1]] - self.middle[self.cells[self.inner, 0]]
         area = self.area[self.inner]
-        cosine = np.einsum("ij,ij->i", line, area) / (np.linalg.norm(line, axis=1) * np.linalg.norm(area, axis=1) + 1e-300)
+        lengths = np.linalg.norm(line, axis=1) * np.linalg.norm(area, axis=1)
+        cosine = np.einsum("ij,ij->i", line, area) / (lengths + 1e-300)
         return np.degrees(np.arccos(np.clip(cosine, -1, 1))), cosine
 
     def skewness(self):
@@ -154,7 +175,8 @@ class Mesh:
         distance = np.linalg.norm(miss, axis=1)
         unit = miss / (distance + 1e-150)[:, None]
         reach = share * np.linalg.norm(line, axis=1) + 1e-150
-        np.maximum.at(reach, self.face, np.abs(np.einsum("ij,ij->i", unit[self.face], self.here - self.centre[self.face])))
+        extent = np.einsum("ij,ij->i", unit[self.face], self.here - self.centre[self.face])
+        np.maximum.at(reach, self.face, np.abs(extent))
         return distance / reach
 
     def loop(self, face):
@@ -169,7 +191,9 @@ class Mesh:
         return sum(n - 1 for n in seen.values())
 
     def touching_face_pairs(self):
-        """Pairs of a cell's faces that share points which do not follow one another: the cell has no thickness at two places that are apart."""
+        """Pairs of a cell's faces that share points which do not follow one another.
+
+        The cell has no thickness at two places that are apart."""
         faces_of = [[] for _ in range(self.count)]
         for face, cells in enumerate(self.cells):
             for cell in cells[cells >= 0]:
@@ -197,10 +221,12 @@ class Mesh:
         angle, cosine = self.angles()
         area = np.linalg.norm(self.area, axis=1)
         return {
-            "points": len(self.points), "faces": len(self.cells), "inner faces": int(self.inner.sum()), "cells": self.count,
+            "points": len(self.points), "faces": len(self.cells), "inner faces": int(self.inner.sum()),
+            "cells": self.count,
             "smallest face": area.min(), "largest face": area.max(), "smallest volume": self.volume.min(),
-            "largest volume": self.volume.max(), "total volume": self.volume.sum(), "non-orthogonality": angle.max(initial=0),
-            "mean non-orthogonality": float(np.degrees(np.arccos(np.clip(cosine.mean(), -1, 1)))) if len(cosine) else 0.0,
+            "largest volume": self.volume.max(), "total volume": self.volume.sum(),
+            "non-orthogonality": angle.max(initial=0),
+            "mean non-orthogonality": float(np.degrees(np.arccos(np.clip(cosine.mean(), -1, 1)))) if len(cosine) else 0,
             "skewness": self.skewness().max(), "doubled boundary faces": self.doubled_boundary_faces(),
             "touching face pairs": self.touching_face_pairs(), "faces seen from behind": self.seen_from_behind(),
             "faces beyond 90 degrees": int((cosine <= 0).sum())}
@@ -250,7 +276,7 @@ class Pillars:
         return "k_max" if normal[2] > 0 else "k_min"
 
     def patches(self, cell, points, normal, present):
-        """The patches that the face may be in: with nothing behind, the mesh file cannot always tell a gap from inactive rock."""
+        """Where the face may be: with nothing behind, the mesh file cannot always tell a gap from inactive rock."""
         side = self.side(cell, points, normal)
         place = [cell % self.n[0], cell // self.n[0] % self.n[1], cell // (self.n[0] * self.n[1])]
         axis = "ijk".index(side[0])
@@ -265,7 +291,8 @@ class Pillars:
 def misplaced_faces(mesh, case, pillars):
     """Boundary faces in another patch than the pillars say, as texts."""
     faces = written_faces(case)
-    patch_of = {faces[place]: name for name, (number, start) in patches(case).items() for place in range(start, start + number)}
+    patch_of = {faces[place]: name for name, (number, start) in patches(case).items()
+                for place in range(start, start + number)}
     present = set(mesh.source.tolist())
     faults = []
     for face in np.nonzero(~mesh.inner)[0]:
@@ -293,8 +320,9 @@ def differences(ours, theirs):
 
 
 def patch_faults(found, mesh):
-    """The sides of a grid whose cells are all in the mesh have a face for each cell there; every meshed well has its bore."""
-    faults = [f"no patch bore_{name}" for name, radius in mesh.wells.items() if radius > 0 and "bore_" + name not in found]
+    """Where all cells are in the mesh, a side has a face for each cell there; every meshed well has its bore."""
+    faults = [f"no patch bore_{name}" for name, radius in mesh.wells.items()
+              if radius > 0 and "bore_" + name not in found]
     n = [int(v) for v in mesh.dimensions]
     if len(mesh.source) == np.prod(n) and (mesh.source >= 0).all():
         cells = (n[1] * n[2], n[0] * n[2], n[0] * n[1])
@@ -312,32 +340,39 @@ def check(wellknit, arguments, pillars, folder):
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
     if done.returncode != 0:
         return ["wellknit failed: " + done.stderr.strip()], []
-    output = run_check_mesh(case)
+    output = run_openfoam("checkMesh", case, "-allTopology", "-allGeometry")
     wrong, counted, shape = complaints(output)
     mesh = Mesh(mesh_file)
     ours, theirs, found = mesh.figures(), their_figures(output), patches(case)
     faults = wrong + differences(ours, theirs) + patch_faults(found, mesh)
+    if ours["cells"] < 20000:
+        faults += field_faults(mesh_file, case)
     if pillars:
         faults += misplaced_faces(mesh, case, pillars)
     checked = subprocess.run([wellknit, "check", "--json", str(mesh_file)], capture_output=True, text=True, check=False)
     quality = json.loads(checked.stdout)["quality"]
     angle = max(v for k, v in quality.items() if re.fullmatch(r"nonorth_\w+_max_deg", k))
-    lines = [f"{ours['cells']} cells, {ours['faces']} faces, {ours['points']} points; " + " ".join(f"{k} {v}" for k, (v, _) in found.items()),
-             f"non-orthogonality {theirs['non-orthogonality']:.6g} (mesh file {ours['non-orthogonality']:.6g}; from pressure points, as wellknit check: {angle:.6g})",
-             f"skewness {theirs['skewness']:.6g} (mesh file {ours['skewness']:.6g}; from pressure points: {max(quality['max_skewness'], quality['max_boundary_skewness']):.6g})"]
+    skewness = max(quality["max_skewness"], quality["max_boundary_skewness"])
+    lines = [f"{ours['cells']} cells, {ours['faces']} faces, {ours['points']} points; "
+             + " ".join(f"{k} {v}" for k, (v, _) in found.items())]
+    for name, checked in (("non-orthogonality", angle), ("skewness", skewness)):
+        lines.append(f"{name}: checkMesh {theirs[name]:.6g}, from the mesh file {ours[name]:.6g}; "
+                     f"from pressure points, as wellknit check has it, {checked:.6g}")
     return faults, lines + [f"topology, no error: {line}" for line in counted] + [f"geometry: {line}" for line in shape]
 
 
 def models(project, shared, first, count, folder):
     """Name, arguments of build, file with the host's COORD or None; those whose data is there."""
     example = project / "testdata" / "example"
-    yield "example", [example / "example.GRDECL", "--well", example / "curved.csv", "--well", example / "steep.dev"], None
+    wells = ["--well", example / "curved.csv", "--well", example / "steep.dev"]
+    yield "example", [example / "example.GRDECL", *wells], None
     reek, spe9 = shared / "data" / "reek", shared / "data" / "spe9" / "SPE9_CP.DATA"
     if reek.is_dir():
-        yield "Reek", [reek / "reek_sim.grdecl", "--grid-include", reek / "reek_sim_poro.grdecl"], reek / "reek_sim.grdecl"
+        grid = reek / "reek_sim.grdecl"
+        yield "Reek", [grid, "--grid-include", reek / "reek_sim_poro.grdecl"], grid
         deck = folder / "REEK.DATA"
         deck.write_text(REEK.format(reek.resolve()), encoding="ascii")
-        yield "Reek with faults and multipliers", [deck], reek / "reek_sim.grdecl"
+        yield "Reek with faults and multipliers", [deck], grid
     else:
         print(f"no {reek}: left out")
     if spe9.exists():
@@ -345,6 +380,14 @@ def models(project, shared, first, count, folder):
         yield "SPE9 with its wells", [spe9, "--deck-wells", "all"], None
     else:
         print(f"no {spe9}: left out")
+    maker = shared / "tools" / "make_case.py"
+    for deform in ("0", "0.5", "1") if maker.exists() else ():
+        stem = folder / f"paper{deform}"
+        size = ["--nx", "30", "--ny", "30", "--nz", "20"]
+        subprocess.run([sys.executable, str(maker), "--out", str(stem), *size, "--deform", deform, "--well", "curved"],
+                       check=True, capture_output=True)
+        well = f"{stem}.csv,radius=15,sectors=10,rings=5,segments=44"
+        yield f"the paper's case at deformation {deform}", [f"{stem}.GRDECL", "--well", well], None
     for seed in range(first, first + count):
         deck = folder / f"SEED{seed}.DATA"
         Deck(seed).write(deck)
