@@ -36,7 +36,7 @@ class AllOrNone {
   AllOrNone() = default;
   ~AllOrNone() {
     std::error_code ignored;  // nothing more can be done about a file that cannot be removed
-    for (const std::string& path : named_) std::filesystem::remove(path, ignored);
+    for (const std::string& path : named_) std::filesystem::remove_all(path, ignored);
   }
   AllOrNone(const AllOrNone&) = delete;
   AllOrNone& operator=(const AllOrNone&) = delete;
@@ -60,7 +60,8 @@ OutputSet::OutputSet(std::vector<OutputRequest> outputs, const std::vector<std::
     if (std::ranges::any_of(inputs, same)) throw UsageError(fmt::format("{}: is an input of this run", output.path));
   }
   for (const OutputRequest& output : outputs_) {
-    check_output_path(output.path, overwrite ? Overwrite::allow : Overwrite::refuse);
+    check_output_path(output.path, overwrite ? Overwrite::allow : Overwrite::refuse,
+                      format_named(output.format).contents);
   }
 }
 
@@ -68,11 +69,11 @@ std::vector<WrittenFile> OutputSet::write(const Mesh& mesh, const Provenance& pr
   std::vector<std::unique_ptr<OutputFile>> files;
   std::vector<WrittenFile> written;
   for (const OutputRequest& output : outputs_) {
-    files.push_back(std::make_unique<OutputFile>(output.path, overwrite_ ? Overwrite::allow : Overwrite::refuse));
-    const std::string& temporary = files.back()->temporary_path();
-    const auto notes = format_named(output.format).write(mesh, provenance, temporary, Overwrite::allow);
-    written.push_back(
-        {output.format, output.path, static_cast<std::int64_t>(std::filesystem::file_size(temporary)), notes});
+    const WriterFormat& format = format_named(output.format);
+    files.push_back(
+        std::make_unique<OutputFile>(output.path, overwrite_ ? Overwrite::allow : Overwrite::refuse, format.contents));
+    const auto notes = format.write(mesh, provenance, files.back()->temporary_path(), Overwrite::allow);
+    written.push_back({output.format, output.path, files.back()->size(), notes});
   }
   // Every byte is on the disk: what is left is to give the names.
   AllOrNone named;

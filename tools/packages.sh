@@ -7,6 +7,8 @@ build_packages=(cmake ninja-build g++ libeigen3-dev libfmt-dev libtbb-dev libcga
                 nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev libpugixml-dev)
 simulation_packages=(libopm-simulators-bin)
 test_packages=(libgtest-dev python3 python3-numpy python3-h5py python3-vtk9)
+# Consumers whose tests are skipped without them; openfoam installs in half a minute, with --no-install-recommends.
+optional_packages=(openfoam)
 benchmark_packages=(libbenchmark-dev libopm-common-dev libopm-grid-dev)
 ci_packages=(clang libclang-rt-14-dev clang-format clang-tidy gcovr ccache libbenchmark-dev git)
 

@@ -9,6 +9,7 @@
 
 #include "writers/write_flow_deck.h"
 #include "writers/write_hdf5.h"
+#include "writers/write_openfoam.h"
 #include "writers/write_vtu.h"
 
 namespace wellknit {
@@ -31,15 +32,32 @@ Notes deck(const Mesh& mesh, const Provenance&, const std::string& path, Overwri
   return write_flow_deck(mesh, path, {}, overwrite);
 }
 
+Notes openfoam(const Mesh& mesh, const Provenance&, const std::string& path, Overwrite overwrite) {
+  return write_openfoam(mesh, path, overwrite);
+}
+
 constexpr std::array<std::string_view, 2> hdf5_extensions{".h5", ".hdf5"};
 constexpr std::array<std::string_view, 1> vtu_extensions{".vtu"};
 constexpr std::array<std::string_view, 1> deck_extensions{".data"};
 
-constexpr std::array<WriterFormat, 3> table{{
-    {"hdf5", hdf5_extensions, "the mesh file: everything, exact, SI", "hdf5.md", hdf5},
-    {"vtu", vtu_extensions, "ParaView and VTK: hexahedra and polyhedra with cell and quality arrays", "vtu.md", vtu},
-    {"deck", deck_extensions, "OPM Flow: a complete deck on the connection list, wells on bottom-hole pressure",
-     "deck.md", deck},
+constexpr std::array<std::string_view, 1> openfoam_extensions{".openfoam"};
+
+constexpr std::array<WriterFormat, 4> table{{
+    {"hdf5", hdf5_extensions, "the mesh file: everything, exact, SI", "hdf5.md", {}, hdf5},
+    {"vtu",
+     vtu_extensions,
+     "ParaView and VTK: hexahedra and polyhedra with cell and quality arrays",
+     "vtu.md",
+     {},
+     vtu},
+    {"deck",
+     deck_extensions,
+     "OPM Flow: a complete deck on the connection list, wells on bottom-hole pressure",
+     "deck.md",
+     {},
+     deck},
+    {"openfoam", openfoam_extensions, "OpenFOAM: a folder with polyMesh, patches, zones, permeability and porosity",
+     "openfoam.md", openfoam_contents, openfoam},
 }};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }

@@ -20,6 +20,7 @@ struct WriterFormat {
   std::span<const std::string_view> extensions;  ///< lower case, with the dot; the first is the usual one
   std::string_view description;                  ///< one line
   std::string_view document;                     ///< page under docs/formats
+  FolderContents contents;                       ///< of a format that is a folder; empty: it is a file
   /// Writes the mesh; returns what its user must know, one sentence each. Throws WriteError.
   std::vector<std::string> (*write)(const Mesh& mesh, const Provenance& provenance, const std::string& path,
                                     Overwrite overwrite);

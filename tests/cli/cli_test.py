@@ -233,6 +233,21 @@ class Outputs(Case):
     def test_two_outputs_of_one_path(self):
         self.fail_with(2, "build", "box.GRDECL", "-o", "a.h5", "--write", "vtu=./a.h5", mention=["a.h5"])
 
+    def test_a_folder_as_output(self):
+        before = self.files()
+        text = self.succeed("build", "box.GRDECL", "--well", "well.csv", "-o", "out.h5", "--write", "openfoam=case")
+        self.assertIn("case (openfoam, ", text)
+        new = [name for name in self.files() if name not in before]
+        self.assertEqual([name for name in new if "/" not in name], ["case", "out.h5"])
+        self.assertIn("case/constant/polyMesh/faces", new)
+        self.fail_with(1, "build", "box.GRDECL", "--write", "openfoam=case", mention=["case", "--overwrite"])
+        self.succeed("build", "box.GRDECL", "--write", "openfoam=case/", "--overwrite")
+        self.write("case/results.txt", "precious")
+        self.fail_with(1, "build", "box.GRDECL", "--write", "openfoam=case", "--overwrite", mention=["case", "results.txt"])
+        # Outputs that hinder each other: the mesh file gets its name first, and then the folder is not empty.
+        (self.folder / "fresh").mkdir()
+        self.fail_with(1, "build", "box.GRDECL", "-o", "fresh/out.h5", "--write", "openfoam=fresh", mention=["fresh"])
+
     def test_host_alone(self):
         text = self.succeed("build", "box.GRDECL", "-o", "out.h5")
         self.assertIn("1,800 cells", text)
@@ -259,6 +274,15 @@ class Convert(Case):
         self.succeed("convert", "mesh.h5", "again.h5", "--quiet")
         self.assertEqual((self.folder / "again.h5").read_bytes(), (self.folder / "mesh.h5").read_bytes())
         self.succeed("convert", "mesh.h5", "deck.txt", "--to", "deck")
+
+    def test_mesh_file_to_a_folder(self):
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "openfoam=direct")
+        self.succeed("convert", "mesh.h5", "by_extension.openfoam")
+        self.succeed("convert", "mesh.h5", "by_name", "--to", "openfoam")
+        content = lambda name: {str(p.relative_to(self.folder / name)): p.read_bytes() for p in (self.folder / name).rglob("*") if p.is_file()}
+        self.assertEqual(content("by_extension.openfoam"), content("direct"))
+        self.assertEqual(content("by_name"), content("direct"))
+        self.assertIn("bore_well", (self.folder / "direct/constant/polyMesh/boundary").read_text())
 
     def test_grid_to_mesh_file(self):
         self.succeed("convert", "box.GRDECL", "host.h5")

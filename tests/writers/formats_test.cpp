@@ -27,7 +27,7 @@ TEST(WriterFormats, HaveUniqueNamesAndExtensions) {
         std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document)))
         << format.document;
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"deck", "hdf5", "vtu"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"deck", "hdf5", "openfoam", "vtu"}));
 }
 
 TEST(WriterFormats, AreFoundByNameInAnyCase) {
@@ -44,12 +44,21 @@ TEST(WriterFormats, AreFoundByExtensionInAnyCase) {
   EXPECT_EQ(writer_of_path("data.h5/out"), nullptr);
 }
 
-TEST(WriterFormats, WriteEachAFile) {
+std::uintmax_t bytes_of(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return std::filesystem::file_size(path);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  return bytes;
+}
+
+TEST(WriterFormats, WriteEachAFileOrAFolder) {
   const ScratchFolder folder;
   for (const WriterFormat& format : writer_formats()) {
     const std::string path = folder.file("out" + std::string(format.extensions.front()));
     format.write(meshes::ring_in_boxes(), meshes::provenance(), path, Overwrite::refuse);
-    EXPECT_GT(std::filesystem::file_size(path), 1000U) << format.name;
+    EXPECT_EQ(std::filesystem::is_directory(path), !format.contents.empty()) << format.name;
+    EXPECT_GT(bytes_of(path), 1000U) << format.name;
   }
   EXPECT_EQ(folder.count(), writer_formats().size());  // nothing temporary is left
 }

@@ -6,7 +6,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <vector>
 
 #include "model/errors.h"
 #include "tests/support/scratch_folder.h"
@@ -107,6 +111,96 @@ TEST(OutputFile, FollowsASymbolicLink) {
   write_text(folder.file("link.txt"), "new", Overwrite::allow);
   EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
   EXPECT_EQ(folder.read("real.txt"), "new");
+}
+
+constexpr std::array<std::string_view, 3> known{"a", "sub/b", "made/"};
+
+void make_folder(const ScratchFolder& folder, const std::string& name, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    std::filesystem::create_directories(folder.path() / name / std::filesystem::path(file).parent_path());
+    folder.write(name + "/" + file, "old");
+  }
+}
+
+void write_folder(const std::string& path, Overwrite overwrite) {
+  OutputFile out(path, overwrite, known);
+  std::ofstream(out.temporary_path() + "/a") << "new";
+  EXPECT_EQ(out.size(), 3);
+  out.commit();
+}
+
+TEST(OutputFolder, AppearsWholeUnderItsName) {
+  const ScratchFolder folder;
+  OutputFile out(folder.file("out"), Overwrite::refuse, known);
+  std::ofstream(out.temporary_path() + "/a") << "text";
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out")));
+  out.commit();
+  EXPECT_EQ(folder.read("out/a"), "text");
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(OutputFolder, LeavesNothingWithoutACommit) {
+  const ScratchFolder folder;
+  {
+    OutputFile out(folder.file("out"), Overwrite::refuse, known);
+    std::ofstream(out.temporary_path() + "/a") << "text";
+  }
+  EXPECT_EQ(folder.count(), 0U);
+}
+
+TEST(OutputFolder, TakesTheNameOfAnEmptyFolderWithOrWithoutASlash) {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder.file("out"));
+  write_folder(folder.file("out") + "/", Overwrite::refuse);
+  EXPECT_EQ(folder.read("out/a"), "new");
+  write_folder(folder.file("fresh") + "//", Overwrite::refuse);
+  EXPECT_EQ(folder.read("fresh/a"), "new");
+  EXPECT_EQ(folder.count(), 2U);
+}
+
+TEST(OutputFolder, IsRefusedWhereOneExists) {
+  const ScratchFolder folder;
+  make_folder(folder, "out", {"a"});
+  EXPECT_THROW(write_folder(folder.file("out"), Overwrite::refuse), WriteError);
+  EXPECT_EQ(folder.read("out/a"), "old");
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(OutputFolder, ReplacesAFormerOutputWhenAsked) {
+  const ScratchFolder folder;
+  make_folder(folder, "out", {"a", "sub/b", "made/by/another/program"});
+  write_folder(folder.file("out"), Overwrite::allow);
+  EXPECT_EQ(folder.read("out/a"), "new");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/sub")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("out/made")));
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(OutputFolder, NeverReplacesAFolderWithAnythingElseInIt) {
+  const ScratchFolder folder;
+  make_folder(folder, "out", {"a", "sub/results"});
+  try {
+    write_folder(folder.file("out"), Overwrite::allow);
+    FAIL() << "replaced";
+  } catch (const WriteError& error) {
+    EXPECT_EQ(error.what(), folder.file("out") +
+                                ": cannot be written: the folder there holds sub/results, which is no "
+                                "file of this format; choose another folder");
+  }
+  EXPECT_EQ(folder.read("out/sub/results"), "old");
+  EXPECT_EQ(folder.count(), 1U);
+}
+
+TEST(OutputFolder, NeitherReplacesAFileNorFollowsALinkInsideAFolder) {
+  const ScratchFolder folder;
+  folder.write("out", "precious");
+  EXPECT_THROW(write_folder(folder.file("out"), Overwrite::allow), WriteError);
+  EXPECT_EQ(folder.read("out"), "precious");
+  make_folder(folder, "elsewhere", {"a"});
+  std::filesystem::create_directory(folder.file("case"));
+  std::filesystem::create_directory_symlink(folder.file("elsewhere"), folder.file("case/sub"));
+  EXPECT_THROW(write_folder(folder.file("case"), Overwrite::allow), WriteError);
+  EXPECT_EQ(folder.read("elsewhere/a"), "old");
 }
 
 TEST(OutputFile, ReportsAFullDisk) {
