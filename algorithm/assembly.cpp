@@ -61,7 +61,7 @@ class Assembler {
     for (std::int64_t c = 0; c < grid_.cell_count(); ++c) {
       const HostCellId source(c);
       if (host_.exists[source] == 0 || is_removed_[source] != 0) continue;
-      const CellId cell = add_cell(CellKind::host, host_cell_center(grid_, source));
+      const CellId cell = add_cell(CellKind::host, host_cell_center(host_, source));
       out_.cell_of[source] = cell;
       out_.mesh.cells.source_cell[cell] = source;
       out_.mesh.cells.volume[cell] = host_.volume[source];

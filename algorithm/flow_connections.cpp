@@ -184,7 +184,7 @@ class Connector {
 
   /// Beside a transition cell; host cells see host faces only.
   [[nodiscard]] double host_half(const HalfFace& h) const {
-    return host_half_transmissibility(grid_, mesh_.cells.source_cell[h.cell], h.info.axis, h.area_vector);
+    return host_half_transmissibility(grid_, host_, mesh_.cells.source_cell[h.cell], h.info.axis, h.area_vector);
   }
 
   [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {

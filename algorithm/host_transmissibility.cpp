@@ -15,6 +15,13 @@ namespace wellknit {
 
 namespace {
 
+std::array<Vec3, 8> corner_points(const HostMesh& mesh, HostCellId cell) {
+  const auto vertices = mesh.corners_of(cell);
+  std::array<Vec3, 8> points;
+  for (std::size_t c = 0; c < 8; ++c) points[c] = mesh.vertices[vertices[c]];
+  return points;
+}
+
 Vec3 scaled(const Vec3& d, double permeability) {
   const double square = d.squaredNorm();
   return square > 0.0 ? Vec3(permeability / square * d) : Vec3::Zero();
@@ -26,8 +33,8 @@ bool has_permeability(const CornerPointGrid& grid) {
   return std::any_of(grid.permeability.begin(), grid.permeability.end(), [](const auto& k) { return !k.empty(); });
 }
 
-Vec3 host_cell_center(const CornerPointGrid& grid, HostCellId cell) {
-  const auto corners = grid.corners(cell);
+Vec3 host_cell_center(const HostMesh& mesh, HostCellId cell) {
+  const auto corners = corner_points(mesh, cell);
   return std::accumulate(corners.begin(), corners.end(), Vec3(Vec3::Zero())) / 8.0;
 }
 
@@ -39,13 +46,14 @@ std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& x, const std::a
   return {scaled(0.125 * i, permeability[0]), scaled(0.125 * j, permeability[1]), scaled(0.125 * k, permeability[2])};
 }
 
-double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, const Vec3& area_vector) {
+double host_half_transmissibility(const CornerPointGrid& grid, const HostMesh& mesh, HostCellId cell, Axis axis,
+                                  const Vec3& area_vector) {
   std::array<double, 3> k{};
   for (std::size_t a = 0; a < 3; ++a)
     if (!grid.permeability[a].empty()) k[a] = grid.permeability[a][cell.index()];
   if (axis != Axis::k && !grid.net_to_gross.empty())
     k[static_cast<std::size_t>(axis)] *= grid.net_to_gross[cell.index()];
-  return std::abs(area_vector.dot(host_conductances(grid.corners(cell), k)[static_cast<std::size_t>(axis)]));
+  return std::abs(area_vector.dot(host_conductances(corner_points(mesh, cell), k)[static_cast<std::size_t>(axis)]));
 }
 
 Vec3 host_face_area_vector(const HostMesh& mesh, FaceId face) {

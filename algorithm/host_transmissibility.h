@@ -8,8 +8,9 @@
 
 namespace wellknit {
 
-/// Centre of a corner-point cell as simulators take it: the mean of its eight corners.
-Vec3 host_cell_center(const CornerPointGrid& grid, HostCellId cell);
+/// Centre of a corner-point cell as simulators take it: the mean of its eight corners, where the host put
+/// them.
+Vec3 host_cell_center(const HostMesh& mesh, HostCellId cell);
 
 /// False: no transmissibility can be computed.
 bool has_permeability(const CornerPointGrid& grid);
@@ -23,7 +24,8 @@ std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& corners, const 
 /// Half-transmissibility, m3, of `cell` through a face (or part of one) normal to `axis`:
 /// k_axis * ntg (lateral faces only) * |A . d| / d^2, with d from the cell's centre to the mean of the four corners of
 /// the cell's own whole face on that side, and A the area vector of the part. 0 where the cell has no permeability.
-double host_half_transmissibility(const CornerPointGrid& grid, HostCellId cell, Axis axis, const Vec3& area_vector);
+double host_half_transmissibility(const CornerPointGrid& grid, const HostMesh& mesh, HostCellId cell, Axis axis,
+                                  const Vec3& area_vector);
 
 /// Area vector, m2, of a host face as simulators take it, for the function above: of its whole loop for lateral faces;
 /// for tops and bases of the four corners alone, since crossings on their edges lie off the straight line where pillars

@@ -139,8 +139,8 @@ class ColumnPinches {
 
   [[nodiscard]] double transmissibility(HostCellId upper, HostCellId lower) const {
     const Vec3 area = area_of_side(grid_, upper, true);
-    const double t1 = host_half_transmissibility(grid_, upper, Axis::k, area);
-    const double t2 = host_half_transmissibility(grid_, lower, Axis::k, area);
+    const double t1 = host_half_transmissibility(grid_, host_, upper, Axis::k, area);
+    const double t2 = host_half_transmissibility(grid_, host_, lower, Axis::k, area);
     if (!(t1 > 0.0) || !(t2 > 0.0)) return 0.0;
     double resistance = 1.0 / t1 + 1.0 / t2;
     if (options_.transmissibility == PinchTransmissibility::all_layers)

@@ -132,6 +132,15 @@ Cost cost_of(const std::function<void()>& work) {
   return {seconds(usage.ru_utime) + seconds(usage.ru_stime), elapsed, static_cast<double>(usage.ru_maxrss) * 1024e-9};
 }
 
+Cost best(const std::vector<Cost>& costs) {
+  const auto least = [&](double Cost::*member) {
+    return (*std::min_element(costs.begin(), costs.end(),
+                              [&](const Cost& a, const Cost& b) { return a.*member < b.*member; })).*
+           member;
+  };
+  return {least(&Cost::processor), least(&Cost::elapsed), least(&Cost::peak)};
+}
+
 void compare(std::int64_t cells) {
   const auto n = static_cast<std::int64_t>(std::llround(std::cbrt(static_cast<double>(cells))));
   const CornerPointGrid grid = make_grid(n);
@@ -143,9 +152,14 @@ void compare(std::int64_t cells) {
       for (int r = 0; r < runs; ++r) work();
     });
   };
-  const Cost one = repeated([&] { wellknit_host(grid, 1); });
-  const Cost two = repeated([&] { wellknit_host(grid, 2); });
-  const Cost peer = repeated([&] { opm_grid(grid); });
+  // In turns, and the best of each: the first process to touch a machine's memory pays for it, and others share it.
+  std::array<std::vector<Cost>, 3> costs;
+  for (int round = 0; round < 3; ++round) {
+    costs[0].push_back(repeated([&] { wellknit_host(grid, 1); }));
+    costs[1].push_back(repeated([&] { wellknit_host(grid, 2); }));
+    costs[2].push_back(repeated([&] { opm_grid(grid); }));
+  }
+  const auto [one, two, peer] = std::array{best(costs[0]), best(costs[1]), best(costs[2])};
   const double done = count * runs;
   fmt::print(
       "{:>9.0f} cells: wellknit {:.2f} M cells/s on one thread, {:.2f} on two ({:.2f} x), {:.2f} GB; opm-grid {:.2f} "
