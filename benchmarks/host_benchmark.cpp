@@ -114,22 +114,37 @@ struct Cost {
 
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
+double processor_time() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Runs the work in a process of its own, which times it; its beginning and end are not counted.
 Cost cost_of(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) std::abort();
   const pid_t child = fork();
   if (child == 0) {
+    const double processor = processor_time();
+    const auto begin = std::chrono::steady_clock::now();
     work();
-    _exit(0);
+    const Cost cost{processor_time() - processor,
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 0.0};
+    _exit(write(ends[1], &cost, sizeof cost) == sizeof cost ? 0 : 1);
   }
+  Cost cost;
   int status = 0;
   rusage usage{};
   wait4(child, &status, 0, &usage);
-  if (status != 0) {
+  if (status != 0 || read(ends[0], &cost, sizeof cost) != sizeof cost) {
     fmt::print(stderr, "a variant failed\n");
     std::exit(1);
   }
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), elapsed, static_cast<double>(usage.ru_maxrss) * 1024e-9};
+  close(ends[0]);
+  close(ends[1]);
+  cost.peak = static_cast<double>(usage.ru_maxrss) * 1024e-9;
+  return cost;
 }
 
 Cost best(const std::vector<Cost>& costs) {
