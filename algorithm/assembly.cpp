@@ -305,7 +305,10 @@ class Assembler {
       const CellId cell(c);
       mesh.cells.centroid[cell] =
           mesh.cells.center[cell] + mesh.cells.centroid[cell] / (volume[cell] != 0.0 ? volume[cell] : 1.0);
-      if (mesh.cells.kind[cell] != CellKind::host) mesh.cells.volume[cell] = volume[cell];
+      if (mesh.cells.kind[cell] == CellKind::host)
+        compare_volumes(cell, volume[cell]);
+      else
+        mesh.cells.volume[cell] = volume[cell];
       if (mesh.cells.kind[cell] != CellKind::radial) continue;
       // Rings that lean against their segment can hide a face of a thin radial cell from its natural centre.
       if (smallest_height(radial_faces[c], mesh.cells.center[cell]) <= 0.0)
@@ -315,6 +318,15 @@ class Assembler {
           mesh.cells.depth[cell] = p->z();
         }
     }
+  }
+
+  void compare_volumes(CellId cell, double of_faces) {
+    VolumeMismatch& found = out_.volume_mismatch;
+    const double difference = std::abs(of_faces / out_.mesh.cells.volume[cell] - 1.0);
+    if (difference > VolumeMismatch::limit) ++found.count;
+    if (difference <= found.worst) return;
+    found.worst = difference;
+    found.cell = cell;
   }
 
   /// Adds the tetrahedra between a face's fan and a cell's centre: volume, and first moment about the centre.

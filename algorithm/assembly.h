@@ -47,8 +47,17 @@ struct PlacedTube {
   }
 };
 
+/// Host cells whose faces enclose another volume than their corners do: cut faces between pillars that lean.
+struct VolumeMismatch {
+  static constexpr double limit = 0.05;  ///< relative; as the mesh check has it
+  std::int64_t count = 0;                ///< beyond the limit
+  double worst = 0.0;                    ///< relative
+  CellId cell;                           ///< the worst
+};
+
 struct Assembly {
   Mesh mesh;  ///< geometry only: no properties, connections, transfer
+  VolumeMismatch volume_mismatch;
   IdVector<FaceId, FaceInfo> face_info;
   IdVector<HostCellId, CellId> cell_of;  ///< mesh cell of each source cell that stayed; invalid for the others
   std::vector<PlacedTube> tubes;         ///< in the order of the cavities and their tubes

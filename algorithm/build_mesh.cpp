@@ -140,6 +140,7 @@ class Builder {
   void start_wells() {
     result_.summary.wells.resize(wells_.size());
     cells_on_path_.resize(wells_.size());
+    depths_in_rock_.resize(wells_.size());
     modes_.resize(wells_.size(), MeshMode::automatic);
     is_steep_.resize(wells_.size(), 0);
     has_changed_mode_.resize(wells_.size(), 0);
@@ -151,14 +152,17 @@ class Builder {
       s.drainage_radius = wells_[w].radial.drainage_radius;
       const WellPath path(wells_[w].trajectory);
       constexpr int samples = 500;
+      const double step = (path.last_depth() - path.first_depth()) / samples;
       HostCellId hint;
       for (int i = 0; i <= samples; ++i) {
-        const double md = path.first_depth() + (path.last_depth() - path.first_depth()) * i / samples;
+        const double md = path.first_depth() + step * i;
         const auto location = locator_->locate(path.point(md), hint);
         if (!location) continue;
         hint = location->cell;
         cells_on_path_[w].push_back(grid_.ijk(hint));
+        if (host_.exists[hint] != 0) depths_in_rock_[w].push_back(md);
       }
+      s.length_in_rock = std::min(step * samples, step * static_cast<double>(depths_in_rock_[w].size()));
       if (cells_on_path_[w].empty())
         throw InvalidInput(fmt::format(
             "well {} does not meet the grid: its path runs from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f}); "
@@ -380,6 +384,13 @@ class Builder {
     s.cavity = static_cast<std::int32_t>(cavity);
     s.segments = tube.real.segments;
     s.radial_cells = static_cast<std::int64_t>(tube.real.segments) * tube.real.sectors * tube.real.rings;
+    const auto& md = tube.real.measured_depth;
+    const auto [first, last] = std::minmax_element(md.begin(), md.end());
+    const auto& depths = depths_in_rock_[tube.well];
+    const auto meshed = std::count_if(depths.begin(), depths.end(),
+                                      [&, low = *first, high = *last](double d) { return d >= low && d <= high; });
+    s.length_meshed =
+        s.length_in_rock * static_cast<double>(meshed) / static_cast<double>(std::max<std::size_t>(1, depths.size()));
     s.notes = tube.notes;
     if (const auto count = cavity_summary.outer_nodes_left_out; count > 0)
       s.notes.push_back(
@@ -393,6 +404,16 @@ class Builder {
   void note_volumes(const Assembly& assembly) {
     std::vector<double> made(cavities_.size(), 0.0);
     const Cells& cells = assembly.mesh.cells;
+    if (const VolumeMismatch& found = assembly.volume_mismatch; found.count > 0) {
+      const auto [i, j, k] = grid_.ijk(cells.source_cell[found.cell]);
+      result_.summary.notes.push_back(
+          fmt::format("The faces of {} host cells beside faults enclose a volume more than {:g} % off that of their "
+                      "corners, at worst "
+                      "{:.0f} % in cell ({}, {}, {}), since pillars lean there; volumes, pore volumes and "
+                      "transmissibilities are those of "
+                      "the corners.",
+                      found.count, 100.0 * VolumeMismatch::limit, 100.0 * found.worst, i + 1, j + 1, k + 1));
+    }
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const CellId cell(c);
       if (cells.kind[cell] != CellKind::transition && cells.kind[cell] != CellKind::radial) continue;
@@ -480,6 +501,7 @@ class Builder {
   HostMesh host_;
   std::unique_ptr<CellLocator> locator_;
   std::vector<std::vector<std::array<std::int64_t, 3>>> cells_on_path_;  ///< per well, along its path
+  std::vector<std::vector<double>> depths_in_rock_;                      ///< measured, of samples along the path, m
   std::vector<MeshMode> modes_;                                          ///< per well; automatic: not chosen yet
   std::vector<std::uint8_t> is_steep_;          ///< per well: within 45 degrees of the layers' normal in E_ref
   std::vector<std::uint8_t> has_changed_mode_;  ///< per well

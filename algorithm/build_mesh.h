@@ -34,6 +34,8 @@ struct WellSummary {
   std::int64_t radial_cells = 0;
   std::int64_t segments = 0;
   double drainage_radius = 0.0;        ///< m
+  double length_in_rock = 0.0;         ///< m along the well inside cells of the mesh; to 1/500 of its length
+  double length_meshed = 0.0;          ///< m of it that has a radial mesh
   std::int64_t connections = 0;        ///< cells open to the bore
   std::int64_t index_connections = 0;  ///< of these, host or transition cells connected by a Peaceman index
   std::vector<std::string> notes;

@@ -26,6 +26,8 @@ constexpr double tolerance = 1e-3;
 /// Height of a point, relative to the corners', that leaves room for others beside it.
 constexpr double usual_height = 0.75;
 constexpr double height_spread = 0.15;
+/// Times that all horizons are looked at.
+constexpr int passes = 4;
 
 using EdgePiece = std::pair<VertexId, VertexId>;  ///< the smaller id first
 
@@ -39,8 +41,17 @@ class TopBalancer {
   explicit TopBalancer(HostMesh& mesh) : mesh_(mesh) {}
 
   std::int64_t balance() {
+    std::vector<FaceId> cut;
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
-      if (mesh_.faces.axis[FaceId(f)] == Axis::k && mesh_.faces.loop(FaceId(f)).size() > 4) balance(FaceId(f));
+      if (mesh_.faces.axis[FaceId(f)] == Axis::k && mesh_.faces.loop(FaceId(f)).size() > 4) cut.emplace_back(f);
+    for (const FaceId face : cut)
+      for (const Edge& edge : edges_of(face)) ++horizons_[key_of(edge)];
+    // A point on an edge that two horizons of a column share disturbs the other one.
+    for (int pass = 0; pass < passes; ++pass) {
+      const std::int64_t before = count_;
+      for (const FaceId face : cut) balance(face);
+      if (count_ == before) break;
+    }
     if (!added_.empty()) rewrite_loops();
     return count_;
   }
@@ -75,6 +86,19 @@ class TopBalancer {
     return volume;
   }
 
+  static EdgePiece key_of(const Edge& edge) { return std::minmax(edge.points.front(), edge.points.back()); }
+
+  /// Points between the corners of an edge, with those that were added; `visit` gets each.
+  template <class Visit>
+  void for_each_inner_point(const Edge& edge, const Visit& visit) const {
+    for (std::size_t n = 0; n + 1 < edge.points.size(); ++n) {
+      if (n > 0) visit(edge.points[n]);
+      const auto found = added_.find(std::minmax(edge.points[n], edge.points[n + 1]));
+      if (found == added_.end()) continue;
+      for (const AddedPoint& point : found->second) visit(point.vertex);
+    }
+  }
+
   void balance(FaceId face) {
     const auto edges = edges_of(face);
     if (edges.empty()) return;
@@ -84,14 +108,24 @@ class TopBalancer {
     const Vec3 area = 0.5 * (corner[2] - corner[0]).cross(corner[3] - corner[1]);
     const auto height = [&](VertexId v) { return area.dot(mesh_.vertices[v] - middle); };
     double sum = 0.0;
-    std::size_t longest = 0;
-    for (std::size_t e = 0; e < 4; ++e) {
-      for (std::size_t n = 1; n + 1 < edges[e].points.size(); ++n) sum += height(edges[e].points[n]);
-      if (edges[e].points.size() > edges[longest].points.size()) longest = e;
+    std::size_t points = 4;
+    const Edge* best = nullptr;
+    // Rather an edge of this horizon alone, and one with many points.
+    const auto is_better = [&](const Edge& one, const Edge& other) {
+      const int shared_one = horizons_.at(key_of(one));
+      const int shared_other = horizons_.at(key_of(other));
+      return shared_one != shared_other ? shared_one < shared_other : one.points.size() > other.points.size();
+    };
+    for (const Edge& edge : edges) {
+      for_each_inner_point(edge, [&](VertexId v) {
+        sum += height(v);
+        ++points;
+      });
+      if (edge.points.size() > 2 && (best == nullptr || is_better(edge, *best))) best = &edge;
     }
-    const double change = sum / (3.0 * static_cast<double>(mesh_.faces.loop(face).size()));
-    if (std::abs(change) <= tolerance * smaller_volume(face)) return;
-    add_points(edges[longest], -sum, height(edges[longest].points.front()), mesh_.faces.loop(face).size() - 4);
+    const double change = sum / (3.0 * static_cast<double>(points));
+    if (best == nullptr || std::abs(change) <= tolerance * smaller_volume(face)) return;
+    add_points(*best, -sum, height(best->points.front()), points - 4);
   }
 
   /// Points on a cut edge whose heights add up to `total`; the edge's first corner has the height `first`.
@@ -197,6 +231,7 @@ class TopBalancer {
   }
 
   HostMesh& mesh_;
+  std::map<EdgePiece, int> horizons_;  ///< tops and bases that have an edge, by its corners
   std::map<EdgePiece, std::vector<AddedPoint>> added_;
   std::int64_t count_ = 0;
 };

@@ -152,6 +152,8 @@ Json json_of(const WellSummary& well) {
           {"radial_cells", well.radial_cells},
           {"segments", well.segments},
           {"drainage_radius", well.drainage_radius},
+          {"length_in_rock", well.length_in_rock},
+          {"length_meshed", well.length_meshed},
           {"connections", well.connections},
           {"index_connections", well.index_connections},
           {"notes", well.notes}};
