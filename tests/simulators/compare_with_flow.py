@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cells, pore volumes and connections of a deck's host mesh against what OPM Flow writes in its INIT and EGRID.
 
-    compare_with_flow.py WELLKNIT CHECK_MESH|- [--random FIRST COUNT] [DECK|DECK,STEM…] [--reek FOLDER]
+    compare_with_flow.py WELLKNIT CHECK_MESH|- [--random FIRST COUNT] [DECK|DECK,STEM…] [--reek FOLDER] [--nwm FOLDER]
 
---reek takes the grid, porosity and faults in a folder and adds permeability and multipliers. DECK,STEM compares with the files STEM.INIT and STEM.EGRID that some simulator wrote before. Exits 77 without flow. Prints one line a deck; exits 1 where a number differs by more than single precision allows.
+--reek takes the grid, porosity and faults in a folder and adds permeability and multipliers; --nwm takes the files of MRST's example as they are. DECK,STEM compares with the files STEM.INIT and STEM.EGRID that some simulator wrote before. Exits 77 without flow. Prints one line a deck; exits 1 where a number differs by more than single precision allows.
 """
 import os
 import pathlib
@@ -95,9 +95,11 @@ def our_result(path):
         return source[order], mesh["cells/pore_volume"][()][order], pairs, mesh.attrs["source_dimensions"]
 
 
-REEK = """RUNSPEC
+def deck_around(dimensions, grid):
+    """What flow needs around a GRID section; `grid` also has EDIT."""
+    return f"""RUNSPEC
 DIMENS
-40 64 14 /
+{dimensions} /
 WATER
 METRIC
 FAULTDIM
@@ -113,7 +115,26 @@ GRID
 INIT
 GRIDFILE
 0 1 /
-PINCH
+{grid}
+PROPS
+PVTW
+100 1 1e-5 1 0 /
+ROCK
+100 1e-5 /
+DENSITY
+800 1000 1 /
+SOLUTION
+EQUIL
+1600 160 0 0 0 0 /
+SCHEDULE
+TSTEP
+1 /
+END
+"""
+
+
+# By option: dimensions, and a grid whose files are in the folder that takes the place of {0}.
+IN_FOLDERS = {"--reek": ("40 64 14", """PINCH
 /
 INCLUDE
 '{0}/reek_sim.grdecl' /
@@ -136,22 +157,22 @@ F3 0 /
 EDIT
 MULTIPLY
 TRANY 0.3 5 30 7 50 2 9 /
+/"""), "--nwm": ("40 30 8", """INCLUDE
+'{0}/coord.inc' /
+INCLUDE
+'{0}/zcorn.inc' /
+INCLUDE
+'{0}/actnum.inc' /
+INCLUDE
+'{0}/perm.inc' /
+COPY
+PERMX PERMY /
+PERMX PERMZ /
 /
-PROPS
-PVTW
-100 1 1e-5 1 0 /
-ROCK
-100 1e-5 /
-DENSITY
-800 1000 1 /
-SOLUTION
-EQUIL
-1600 160 0 0 0 0 /
-SCHEDULE
-TSTEP
-1 /
-END
-"""
+NTG
+9600*0.9 /
+PORO
+9600*0.2 /""")}
 
 
 def compare(wellknit, checker, deck, folder, stem=None):
@@ -212,12 +233,14 @@ def main():
                 path = pathlib.Path(scratch) / f"SEED{seed}.DATA"
                 Deck(seed).write(path)
                 decks.append(str(path))
-        if "--reek" in decks:
-            at = decks.index("--reek")
+        for option, (dimensions, grid) in IN_FOLDERS.items():
+            if option not in decks:
+                continue
+            at = decks.index(option)
             folder = pathlib.Path(decks[at + 1]).resolve()
-            path = pathlib.Path(scratch) / "REEK.DATA"
+            path = pathlib.Path(scratch) / f"{option[2:].upper()}.DATA"
             if folder.is_dir():
-                path.write_text(REEK.format(folder), encoding="ascii")
+                path.write_text(deck_around(dimensions, grid.format(folder)), encoding="ascii")
             decks[at:at + 2] = [str(path)]
         for deck, *stem in (d.split(",") for d in decks):
             if not os.path.exists(deck):
