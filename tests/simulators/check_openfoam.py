@@ -26,7 +26,7 @@ except ImportError as error:
     sys.exit(77)
 
 from check_hosts import load_checker
-from compare_with_flow import REEK
+from compare_with_flow import deck_in_folder
 from make_model import Deck
 
 TOLERANCE = 1e-6  # relative; checkMesh prints 16 digits of sums that it takes in another order
@@ -371,7 +371,7 @@ def models(project, shared, first, count, folder):
         grid = reek / "reek_sim.grdecl"
         yield "Reek", [grid, "--grid-include", reek / "reek_sim_poro.grdecl"], grid
         deck = folder / "REEK.DATA"
-        deck.write_text(REEK.format(reek.resolve()), encoding="ascii")
+        deck.write_text(deck_in_folder("--reek", reek.resolve()), encoding="ascii")
         yield "Reek with faults and multipliers", [deck], grid
     else:
         print(f"no {reek}: left out")

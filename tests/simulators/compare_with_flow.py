@@ -175,6 +175,12 @@ PORO
 9600*0.2 /""")}
 
 
+def deck_in_folder(option, folder):
+    """The text of an IN_FOLDERS deck."""
+    dimensions, grid = IN_FOLDERS[option]
+    return deck_around(dimensions, grid.format(folder))
+
+
 def compare(wellknit, checker, deck, folder, stem=None):
     """Faults found, as texts; and a line of figures."""
     out = pathlib.Path(folder) / "host.h5"
@@ -233,14 +239,14 @@ def main():
                 path = pathlib.Path(scratch) / f"SEED{seed}.DATA"
                 Deck(seed).write(path)
                 decks.append(str(path))
-        for option, (dimensions, grid) in IN_FOLDERS.items():
+        for option in IN_FOLDERS:
             if option not in decks:
                 continue
             at = decks.index(option)
             folder = pathlib.Path(decks[at + 1]).resolve()
             path = pathlib.Path(scratch) / f"{option[2:].upper()}.DATA"
             if folder.is_dir():
-                path.write_text(deck_around(dimensions, grid.format(folder)), encoding="ascii")
+                path.write_text(deck_in_folder(option, folder), encoding="ascii")
             decks[at:at + 2] = [str(path)]
         for deck, *stem in (d.split(",") for d in decks):
             if not os.path.exists(deck):
