@@ -176,8 +176,11 @@ void cut_strip(const Work& work, const Strip& strip, StripOverlay& overlay, Stri
   }
   const auto first = static_cast<std::int64_t>(out.crossings.size());
   overlay.read(strip, first);
-  if (first + overlay.crossing_count() > max_ids)
-    throw InvalidInput("the layers on both sides of a fault cross in too many points to be numbered; check ZCORN");
+  // A throw that changes by a thousand layers along one cell is damage; its points would fill the memory.
+  if (overlay.crossing_count() > 1000 * work.mesh.corners.levels())
+    throw InvalidInput(
+        fmt::format("the layers on both sides of the fault at pillar ({}, {}) cross in {} points; check ZCORN there",
+                    strip.pillar_p[0] + 1, strip.pillar_p[1] + 1, overlay.crossing_count()));
   out.first_crossing.push_back(first);
   overlay.add_crossings(work.grid, strip, work.mesh.vertices, out);
 }

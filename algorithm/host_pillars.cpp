@@ -19,25 +19,6 @@ namespace wellknit {
 
 namespace {
 
-bool is_upside_down(const CornerPointGrid& grid) {
-  const std::int64_t layer = 4 * grid.dimensions[0] * grid.dimensions[1];
-  const auto balance_of = [&](const tbb::blocked_range<std::int64_t>& layers, std::int64_t balance) {
-    for (std::int64_t k = layers.begin(); k < layers.end(); ++k) {
-      const double* top = grid.zcorn.data() + 2 * k * layer;
-      std::int64_t down = 0;
-      std::int64_t up = 0;
-      for (std::int64_t c = 0; c < layer; ++c) {
-        down += top[c] < top[c + layer] ? 1 : 0;
-        up += top[c] > top[c + layer] ? 1 : 0;
-      }
-      balance += down - up;
-    }
-    return balance;
-  };
-  return tbb::parallel_reduce(tbb::blocked_range<std::int64_t>(0, grid.dimensions[2]), std::int64_t{0}, balance_of,
-                              std::plus<>{}) < 0;
-}
-
 /// The depths of all columns of one row on the pillars of one of its sides, a list of levels for each column and
 /// corner.
 class DepthLists {
@@ -172,6 +153,25 @@ class PillarResolver {
 };
 
 }  // namespace
+
+bool is_upside_down(const CornerPointGrid& grid) {
+  const std::int64_t layer = 4 * grid.dimensions[0] * grid.dimensions[1];
+  const auto balance_of = [&](const tbb::blocked_range<std::int64_t>& layers, std::int64_t balance) {
+    for (std::int64_t k = layers.begin(); k < layers.end(); ++k) {
+      const double* top = grid.zcorn.data() + 2 * k * layer;
+      std::int64_t down = 0;
+      std::int64_t up = 0;
+      for (std::int64_t c = 0; c < layer; ++c) {
+        down += top[c] < top[c + layer] ? 1 : 0;
+        up += top[c] > top[c + layer] ? 1 : 0;
+      }
+      balance += down - up;
+    }
+    return balance;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<std::int64_t>(0, grid.dimensions[2]), std::int64_t{0}, balance_of,
+                              std::plus<>{}) < 0;
+}
 
 PillarNodes resolve_pillars(const CornerPointGrid& grid) {
   PillarNodes out;

@@ -18,6 +18,9 @@ struct PillarNodes {
   std::vector<std::string> notes;  ///< what was mended
 };
 
+/// Layers are numbered upwards: more corners have their cell's base above its top than below.
+bool is_upside_down(const CornerPointGrid& grid);
+
 /// Depths within pillar_merge_tolerance (chained) are one node, at the least of them. A level that lies above the one
 /// before it is moved down to it, as simulators do: a cell with corners in reverse order has no thickness there.
 PillarNodes resolve_pillars(const CornerPointGrid& grid);

@@ -20,6 +20,8 @@
 #include <numbers>
 #include <optional>
 
+#include "algorithm/host_pillars.h"
+
 namespace wellknit {
 
 namespace {
@@ -83,15 +85,6 @@ struct DepthRange {
     high = std::max(high, other.high);
   }
 };
-
-/// Layers are numbered upwards where more corners of the last base lie above those of the first top than below.
-bool is_upside_down(const CornerPointGrid& grid) {
-  const std::size_t layer = 4 * static_cast<std::size_t>(grid.dimensions[0] * grid.dimensions[1]);
-  const double* base = grid.zcorn.data() + grid.zcorn.size() - layer;
-  std::int64_t balance = 0;
-  for (std::size_t c = 0; c < layer; ++c) balance += (grid.zcorn[c] < base[c]) - (grid.zcorn[c] > base[c]);
-  return balance < 0;
-}
 
 /// The layers of the grid from above, whichever way they are numbered.
 struct Layers {
