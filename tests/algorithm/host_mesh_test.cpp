@@ -399,6 +399,23 @@ TEST(HostMesh, CutsOverlappingLayers) {
   EXPECT_EQ(faces_where(mesh, [&](FaceId f) { return is_inner(mesh, f); }), 1);
 }
 
+TEST(HostMesh, RefusesAFaultThatCrossesTooManyLayers) {
+  // Every one of 2101 lines crosses every other side's: 2101 x 2101 points, above 1000 for each of 2 x 2100 levels.
+  auto grid = grids::box({2, 1, 2100});
+  const double height = 5.0 * 2100;
+  for (std::int64_t k = 0; k < 2100; ++k)
+    for (int corner = 0; corner < 8; ++corner)
+      grid.zcorn[grid.zcorn_index({1, 0, k}, corner & 1, (corner >> 1) & 1, corner >> 2)] +=
+          (corner & 2) != 0 ? 2.0 * height : -2.0 * height;
+  try {
+    (void)build_host_mesh(grid);
+    FAIL() << "built";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("at pillar (2, 1) cross in 4414201 points"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(HostMesh, ThrowsWhenNothingHasAVolume) {
   auto grid = grids::box({2, 2, 2});
   std::fill(grid.active.begin(), grid.active.end(), std::uint8_t{0});
