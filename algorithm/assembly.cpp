@@ -3,15 +3,20 @@
 
 #include "algorithm/assembly.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "algorithm/cavity_walls.h"
 #include "algorithm/cell_center.h"
 #include "algorithm/host_transmissibility.h"
 
 namespace wellknit {
 
 namespace {
+
+constexpr double open_limit = 1e-9;  ///< |sum of area vectors| over the sum of areas, as the mesh check has it
 
 class Assembler {
  public:
@@ -20,6 +25,7 @@ class Assembler {
 
   Assembly build() {
     mark_removed();
+    walls_ = find_cavity_walls(host_, cavities_, is_removed_);
     add_host_cells();
     for (const TransitionMesh& c : cavities_) add_transition_cells(c);
     for (const TransitionMesh& c : cavities_)
@@ -39,9 +45,9 @@ class Assembler {
   using Loop = std::vector<VertexId>;
 
   void mark_removed() {
-    is_removed_.resize(static_cast<std::size_t>(grid_.cell_count()), 0);
+    is_removed_.resize(host_.volume.size(), 0);
     for (const TransitionMesh& c : cavities_)
-      for (const auto& r : c.cavity.removed) is_removed_[grid_.cell_id(r[0], r[1], r[2])] = 1;
+      for (const HostCellId cell : c.cavity.removed_cells) is_removed_[cell] = 1;
   }
 
   CellId add_cell(CellKind kind, const Vec3& center) {
@@ -57,14 +63,16 @@ class Assembler {
   }
 
   void add_host_cells() {
-    out_.cell_of.resize(static_cast<std::size_t>(grid_.cell_count()));
-    for (std::int64_t c = 0; c < grid_.cell_count(); ++c) {
-      const HostCellId source(c);
-      if (host_.exists[source] == 0 || is_removed_[source] != 0) continue;
-      const CellId cell = add_cell(CellKind::host, host_cell_center(host_, source));
-      out_.cell_of[source] = cell;
-      out_.mesh.cells.source_cell[cell] = source;
-      out_.mesh.cells.volume[cell] = host_.volume[source];
+    out_.cell_of.resize(host_.volume.size());
+    for (std::size_t c = 0; c < host_.volume.size(); ++c) {
+      const HostCellId from(c);
+      if (!host_.is_cell(from) || is_removed_[from] != 0) continue;
+      const CellKind kind = c < host_.source_count() ? CellKind::host : CellKind::refined;
+      const CellId cell = add_cell(kind, host_cell_center(host_, from));
+      out_.cell_of[from] = cell;
+      out_.host_cell.push_back(from);
+      out_.mesh.cells.source_cell[cell] = host_.source_of(from);
+      out_.mesh.cells.volume[cell] = host_.volume[from];
     }
   }
 
@@ -147,7 +155,13 @@ class Assembler {
 
   VertexId host_vertex(VertexId v) {
     VertexId& to = vertex_of_host_[v];
-    if (!to.is_valid()) to = out_.mesh.vertices.push_back(host_.vertices[v]);
+    if (!to.is_valid()) {
+      to = out_.mesh.vertices.push_back(host_.vertices[v]);
+      if (!walls_.edges.empty()) {
+        host_vertex_of_.resize(out_.mesh.vertices.size());
+        host_vertex_of_[to] = v;
+      }
+    }
     return to;
   }
 
@@ -162,21 +176,29 @@ class Assembler {
       const FaceId f(index);
       const auto [a, b] = host_.faces.cells[f];
       const CellId first = out_.cell_of[a];
-      const bool is_wall = b.is_valid() && is_removed_[b] != 0;
       const CellId second = b.is_valid() ? out_.cell_of[b] : no_cell;
-      // Faces at removed cells come from the cavity; faces of removed cells alone are gone.
-      if (is_wall || is_removed_[a] != 0 || (!first.is_valid() && !second.is_valid())) continue;
+      // Faces at removed cells come with the cavity; faces of removed cells alone are gone.
+      const bool is_beside_removed = is_removed_[a] != 0 || (b.is_valid() && is_removed_[b] != 0);
+      if ((is_beside_removed && walls_.has(f)) || (!first.is_valid() && !second.is_valid())) continue;
       loop.clear();
       for (const VertexId v : host_.faces.loop(f)) loop.push_back(host_vertex(v));
-      FaceInfo info;
-      info.role = FaceRole::host;
-      info.axis = host_.faces.axis[f];
-      info.is_fault = host_.faces.is_fault[f];
-      info.is_pinch = host_.faces.is_pinch[f];
-      info.host = {a, b};
+      FaceInfo info = host_face_info(f, a, b);
       info.host_face = f;
-      add_face(loop, first, second, info);
+      if (first.is_valid())
+        add_face(loop, first, second, info);
+      else  // no boundary face of the cavity stands for it: the outside of what is left
+        add_face(Loop(loop.rbegin(), loop.rend()), second, no_cell, info);
     }
+  }
+
+  [[nodiscard]] FaceInfo host_face_info(FaceId f, HostCellId one, HostCellId other) const {
+    FaceInfo info;
+    info.role = FaceRole::host;
+    info.axis = host_.faces.axis[f];
+    info.is_fault = host_.faces.is_fault[f];
+    info.is_pinch = host_.faces.is_pinch[f];
+    info.host = {host_.source_of(one), other.is_valid() ? host_.source_of(other) : HostCellId{}};
+    return info;
   }
 
   /// Mesh vertices of a cavity, made when first used.
@@ -213,9 +235,66 @@ class Assembler {
     for (std::size_t f = 0; f < c.faces.size(); ++f) {
       loop.clear();
       for (const auto v : c.faces[f].loop) loop.push_back(diagram_vertex(c, v, vertices));
+      if (!walls_.edges.empty()) divide_edges(loop);
       add_diagram_face(index, f, first_tube, loop);
     }
     for (std::size_t t = 0; t < c.cavity.tubes.size(); ++t) add_tube_faces(c, t, out_.tubes[first_tube + t], vertices);
+  }
+
+  /// Puts the host's vertices into a loop's edges.
+  void divide_edges(Loop& loop) {
+    Loop divided;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      const VertexId a = loop[n];
+      const VertexId b = loop[n + 1 == loop.size() ? 0 : n + 1];
+      divided.push_back(a);
+      const auto known = [&](VertexId v) {
+        return host_vertex_of_.size() > v.index() ? host_vertex_of_[v] : VertexId{};
+      };
+      for (const VertexId v : walls_.between(known(a), known(b))) divided.push_back(host_vertex(v));
+    }
+    loop = std::move(divided);
+  }
+
+  /// The host's faces in the place of a face of the cavity, and where they leave a part of it open that part.
+  void add_wall(std::size_t index, CellId cell, const CavityWall& wall, const Loop& outline) {
+    LoopRemainder rest;
+    rest.add(outline);
+    Loop loop;
+    for (const FaceId f : wall.faces) {
+      const auto [a, b] = host_.faces.cells[f];
+      const bool is_first = a == wall.removed;  // the normal points away from it
+      const HostCellId beyond = is_first ? b : a;
+      loop.clear();
+      for (const VertexId v : host_.faces.loop(f)) loop.push_back(host_vertex(v));
+      if (!is_first) std::reverse(loop.begin(), loop.end());
+      rest.remove(loop);
+      CellId other = beyond.is_valid() ? out_.cell_of[beyond] : no_cell;
+      if (const auto shared = walls_.shared.find(f); shared != walls_.shared.end()) {
+        const auto& [cavity, number] = shared->second[is_first ? 1 : 0];
+        if (cavity < index) continue;  // made with that one
+        other = cell_at_wall(cavity, number);
+      }
+      add_face(loop, cell, other, host_face_info(f, wall.removed, beyond));
+    }
+    FaceInfo info;
+    info.role = FaceRole::host;
+    for (const Loop& open : rest.loops()) add_face(open, cell, no_cell, info);
+  }
+
+  /// The transition cell behind a boundary face of a cavity.
+  [[nodiscard]] CellId cell_at_wall(std::size_t cavity, std::size_t boundary_face) {
+    cells_at_walls_.resize(cavities_.size());
+    auto& cells = cells_at_walls_[cavity];
+    if (cells.empty()) {
+      const TransitionMesh& c = cavities_[cavity];
+      cells.resize(c.cavity.faces.size());
+      for (std::size_t f = 0; f < c.faces.size(); ++f)
+        if (c.boundary_face[f] >= 0)
+          cells[static_cast<std::size_t>(c.boundary_face[f])] =
+              CellId(out_.first_transition_cell[cavity] + c.faces[f].cell);
+    }
+    return cells[boundary_face];
   }
 
   void add_diagram_face(std::size_t index, std::size_t f, std::size_t first_tube, const Loop& loop) {
@@ -229,8 +308,11 @@ class Assembler {
     } else if (face.other_kind == DiagramFace::Other::outer) {
       const BoundaryFace& b = c.cavity.faces[static_cast<std::size_t>(c.boundary_face[f])];
       if (b.kind == BoundaryFaceKind::host) {
-        other = out_.cell_of[b.outside_cell];
-        info = wall_info(b);
+        const CavityWall* wall = walls_.find(index, static_cast<std::size_t>(c.boundary_face[f]));
+        if (wall != nullptr && !wall->is_plain) return add_wall(index, cell(face.cell), *wall, loop);
+        const HostCellId outside = wall != nullptr ? beyond(*wall) : b.outside_cell;
+        other = outside.is_valid() ? out_.cell_of[outside] : no_cell;
+        info = wall_info(b, outside, wall);
       } else {
         info.role = b.kind == BoundaryFaceKind::lateral ? FaceRole::lateral : FaceRole::axial;
         info.circle = b.radial.ring + 1;
@@ -241,14 +323,17 @@ class Assembler {
     add_face(loop, cell(face.cell), other, info);
   }
 
-  FaceInfo wall_info(const BoundaryFace& b) const {
+  /// The cell on the other side of a plain wall.
+  [[nodiscard]] HostCellId beyond(const CavityWall& wall) const {
+    const auto [a, b] = host_.faces.cells[wall.faces.front()];
+    return a == wall.removed ? b : a;
+  }
+
+  [[nodiscard]] FaceInfo wall_info(const BoundaryFace& b, HostCellId outside, const CavityWall* wall) const {
     FaceInfo info;
     info.role = FaceRole::host;
-    info.host = {b.removed_cell, b.outside_cell};
-    const auto one = grid_.ijk(b.removed_cell);
-    const auto two = grid_.ijk(b.outside_cell);
-    for (std::size_t a = 0; a < 3; ++a)
-      if (one[a] != two[a]) info.axis = static_cast<Axis>(a);
+    info.host = {host_.source_of(b.removed_cell), outside.is_valid() ? host_.source_of(outside) : HostCellId{}};
+    if (wall != nullptr) info.axis = wall->axis;
     return info;
   }
 
@@ -282,11 +367,13 @@ class Assembler {
         }
   }
 
-  /// Volumes and centroids from the faces' fans; host cells keep the volume of their eight corners.
+  /// Volumes and centroids from the faces' fans; source cells keep the volume of their eight corners.
   void set_made_geometry() {
     Mesh& mesh = out_.mesh;
     IdVector<CellId, double> volume(mesh.cells.size(), 0.0);
-    std::vector<std::vector<OutwardFace>> radial_faces(mesh.cells.size());
+    IdVector<CellId, Vec3> open(mesh.cells.size(), Vec3::Zero());
+    IdVector<CellId, double> area(mesh.cells.size(), 0.0);
+    std::vector<std::vector<OutwardFace>> made_faces(mesh.cells.size());
     for (std::size_t index = 0; index < mesh.faces.size(); ++index) {
       const FaceId f(index);
       std::vector<Vec3> points;
@@ -296,24 +383,35 @@ class Assembler {
         const CellId cell = mesh.faces.cells[f][static_cast<std::size_t>(side)];
         if (!cell.is_valid()) continue;
         const double sign = side == 0 ? 1.0 : -1.0;
+        open[cell] += sign * g.area_vector;
+        area[cell] += g.area_vector.norm();
         add_fan(points, g.mean, mesh.cells.center[cell], sign, volume[cell], mesh.cells.centroid[cell]);
-        if (mesh.cells.kind[cell] == CellKind::radial)
-          radial_faces[cell.index()].push_back({g.mean, sign * g.area_vector});
+        if (mesh.cells.kind[cell] >= CellKind::transition)
+          made_faces[cell.index()].push_back({g.mean, sign * g.area_vector});
       }
+    }
+    for (std::size_t c = 0; c < mesh.cells.size() && !cavities_.empty(); ++c) {
+      const CellId cell(c);
+      const bool is_made = mesh.cells.kind[cell] >= CellKind::transition;
+      if (open[cell].norm() > open_limit * area[cell] || (is_made && !(volume[cell] > 0.0)))
+        out_.unsound_cells.push_back(cell);
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       const CellId cell(c);
       mesh.cells.centroid[cell] =
           mesh.cells.center[cell] + mesh.cells.centroid[cell] / (volume[cell] != 0.0 ? volume[cell] : 1.0);
-      if (mesh.cells.kind[cell] == CellKind::host)
+      // A refined cell can be a wedge much longer than thick, whose twisted faces differ from the corner-point ones.
+      const CellKind kind = mesh.cells.kind[cell];
+      if (kind == CellKind::host || (kind == CellKind::refined && !(volume[cell] > 0.0)))
         compare_volumes(cell, volume[cell]);
       else
         mesh.cells.volume[cell] = volume[cell];
-      if (mesh.cells.kind[cell] != CellKind::radial) continue;
-      // Rings that lean against their segment can hide a face of a thin radial cell from its natural centre.
-      if (smallest_height(radial_faces[c], mesh.cells.center[cell]) <= 0.0)
+      if (mesh.cells.kind[cell] < CellKind::transition) continue;
+      // Rings that lean against their segment can hide a face of a thin radial cell from its natural centre; vertices
+      // of the host on a wall can turn the faces of a transition cell there a little.
+      if (smallest_height(made_faces[c], mesh.cells.center[cell]) <= 0.0)
         if (const auto p =
-                point_that_sees_all(radial_faces[c], mesh.cells.center[cell], std::cbrt(std::abs(volume[cell])))) {
+                point_that_sees_all(made_faces[c], mesh.cells.center[cell], std::cbrt(std::abs(volume[cell])))) {
           mesh.cells.center[cell] = *p;
           mesh.cells.depth[cell] = p->z();
         }
@@ -347,6 +445,9 @@ class Assembler {
   const std::vector<TransitionMesh>& cavities_;
   IdVector<VertexId, VertexId> vertex_of_host_;
   IdVector<HostCellId, std::uint8_t> is_removed_;
+  CavityWalls walls_;
+  std::vector<std::vector<CellId>> cells_at_walls_;  ///< per cavity and boundary face; made when first asked for
+  IdVector<VertexId, VertexId> host_vertex_of_;      ///< the host's vertex of each of the mesh's, if it is one
   Assembly out_;
 };
 

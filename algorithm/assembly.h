@@ -32,7 +32,7 @@ struct FaceInfo {
   FaceId host_face;                  ///< role host between two host cells: the host mesh's face
   std::int32_t circle = -1;          ///< roles ring, lateral: circle of the radial mesh, bore 0
   std::array<HostCellId, 2> host{};  ///< role host: the source cells on the sides of cells[0] and cells[1]; a removed
-                                     ///< one on the side of a transition cell
+                                     ///< one on the side of a transition cell; that of a refined cell is its parent
 };
 
 /// A tube and the ids of its cells: first_cell + (segment * sectors + sector) * rings + ring.
@@ -58,15 +58,21 @@ struct VolumeMismatch {
 struct Assembly {
   Mesh mesh;  ///< geometry only: no properties, connections, transfer
   VolumeMismatch volume_mismatch;
+  std::vector<CellId> unsound_cells;  ///< that do not close, or made ones without positive volume; only beside cavities
   IdVector<FaceId, FaceInfo> face_info;
-  IdVector<HostCellId, CellId> cell_of;  ///< mesh cell of each source cell that stayed; invalid for the others
-  std::vector<PlacedTube> tubes;         ///< in the order of the cavities and their tubes
+  IdVector<HostCellId, CellId> cell_of;             ///< mesh cell of each host cell that stayed; invalid for the others
+  std::vector<HostCellId> host_cell;                ///< of each mesh cell of kinds host and refined, which come first
+  std::vector<PlacedTube> tubes;                    ///< in the order of the cavities and their tubes
   std::vector<std::int64_t> first_transition_cell;  ///< per cavity
   std::vector<std::size_t> first_tube;              ///< cavities + 1 offsets into tubes
+  /// Of each made cell, from the first transition cell on: directions of its three permeabilities as orthonormal
+  /// columns (rock_tensor.h). Empty: x, y, depth.
+  std::vector<Eigen::Matrix3d> rock_axes;
 };
 
-/// Cells are numbered: host cells in the source's order, transition cells by cavity, radial cells by tube. `cavities`
-/// must outlive the result.
+/// Cells are numbered: host cells in the source's order, refined cells, transition cells by cavity, radial cells by
+/// tube. `cavities` must be bound to the host and outlive the result. Where a face of a cavity meets other cells of the
+/// host than one with the same four corners, the host's faces stand in its place.
 Assembly assemble(const CornerPointGrid& grid, const HostMesh& host, const std::vector<TransitionMesh>& cavities);
 
 }  // namespace wellknit

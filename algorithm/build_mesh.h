@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,20 +21,39 @@ enum class MappingMethod {
   paper       ///< the objective of Mouton, Bennis and Borouchaki as written
 };
 
+/// What happens to a well at a fault.
+enum class FaultPolicy {
+  stop,  ///< its tube ends there and another one begins behind
+  heal   ///< small throws near the wells are averaged out first (heal_faults.h); at others it stops
+};
+
 struct BuildOptions {
   MappingMethod mapping = MappingMethod::automatic;
-  int threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
+  int threads = 0;             ///< 0: as many as the machine has; the result does not depend on it
+  int refinement_levels = -1;  ///< of source columns near wells, each into two along i and j; 0: none; -1: automatic
+  FaultPolicy fault_policy = FaultPolicy::stop;
+  std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
+};
+
+/// A radial mesh along a stretch of a well.
+struct TubeSummary {
+  MeasuredDepthRange range;  ///< m
+  std::string mode;          ///< "layered" or "swept"
+  double drainage_radius = 0.0;
+  std::int32_t cavity = -1;
 };
 
 struct WellSummary {
   std::string name;
   bool meshed = false;
-  std::string mode;          ///< "layered" or "swept"; "host cells" when not meshed
-  std::string reason;        ///< why it was not meshed and what would help; empty when meshed
-  std::int32_t cavity = -1;  ///< 0-based; wells with the same number share one cavity
+  std::string mode;                ///< of its first tube: "layered" or "swept"; "host cells" when not meshed
+  std::string reason;              ///< why it was not meshed and what would help; empty when meshed
+  std::int32_t cavity = -1;        ///< of its first tube, 0-based; wells with the same number share one cavity
+  std::vector<TubeSummary> tubes;  ///< along the well
   std::int64_t radial_cells = 0;
   std::int64_t segments = 0;
-  double drainage_radius = 0.0;        ///< m
+  double radius_wanted = 0.0;          ///< drainage radius asked for, m
+  double drainage_radius = 0.0;        ///< the least of its tubes, m
   double length_in_rock = 0.0;         ///< m along the well inside cells of the mesh; to 1/500 of its length
   double length_meshed = 0.0;          ///< m of it that has a radial mesh
   std::int64_t connections = 0;        ///< cells open to the bore
@@ -57,6 +77,9 @@ struct CavitySummary {
   std::int64_t short_edges_expanded = 0;  ///< that the adjustment lengthened
   std::int64_t outer_nodes_left_out =
       0;  ///< nodes of the grid's outside above or beside the cavity that the mapping does not follow
+  std::int64_t cells_closed_after_mapping = 0;  ///< transition cells that no point saw whole, before they were opened
+  std::int64_t vertices_moved = 0;              ///< to open them
+  std::int64_t cells_merged = 0;                ///< with a neighbour, where moving vertices did not do
   std::int64_t cells_not_seen_from_centre = 0;
 };
 

@@ -4,67 +4,23 @@
 #include "algorithm/cavity.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "algorithm/removed_cells.h"
 
 namespace wellknit {
 
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
-using Node = std::array<std::int64_t, 3>;
-
-/// The grid's cells as a mask of what is removed.
-class RemovedCells {
- public:
-  explicit RemovedCells(const CornerPointGrid& grid)
-      : grid_(grid), mask_(static_cast<std::size_t>(grid.cell_count()), 0) {}
-
-  [[nodiscard]] bool is_inside_grid(const Cell& c) const {
-    for (std::size_t a = 0; a < 3; ++a)
-      if (c[a] < 0 || c[a] >= grid_.dimensions[a]) return false;
-    return true;
-  }
-  [[nodiscard]] bool contains(const Cell& c) const {
-    return is_inside_grid(c) && mask_[grid_.cell_id(c[0], c[1], c[2]).index()] != 0;
-  }
-  bool add(const Cell& c) {
-    if (!is_inside_grid(c)) return false;
-    auto& m = mask_[grid_.cell_id(c[0], c[1], c[2]).index()];
-    if (m != 0) return false;
-    m = 1;
-    ++count_;
-    for (std::size_t a = 0; a < 3; ++a) {
-      low_[a] = std::min(low_[a], c[a]);
-      high_[a] = std::max(high_[a], c[a] + 1);
-    }
-    return true;
-  }
-  [[nodiscard]] bool contains(HostCellId c) const { return mask_[c.index()] != 0; }
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  /// In order of their ids.
-  [[nodiscard]] std::vector<Cell> list() const {
-    std::vector<Cell> cells;
-    for (std::int64_t k = low_[2]; k < high_[2]; ++k)
-      for (std::int64_t j = low_[1]; j < high_[1]; ++j)
-        for (std::int64_t i = low_[0]; i < high_[0]; ++i)
-          if (contains({i, j, k})) cells.push_back({i, j, k});
-    return cells;
-  }
-
- private:
-  const CornerPointGrid& grid_;
-  std::vector<std::uint8_t> mask_;
-  std::int64_t count_ = 0;
-  Cell low_{std::numeric_limits<std::int64_t>::max() / 2, std::numeric_limits<std::int64_t>::max() / 2,
-            std::numeric_limits<std::int64_t>::max() / 2};
-  Cell high_{0, 0, 0};
-};
+using Cell = NearWellCell;
+using Node = NearWellCell;
 
 Cell neighbour(const Cell& c, int side) {
   Cell out = c;
@@ -88,118 +44,50 @@ std::array<Node, 4> side_nodes(const Cell& c, int side) {
   return nodes;
 }
 
-// ---- cells that meet a tube
-// -------------------------------------------------------------------------------------------
-
-double distance_to_box(const Box& box, const Vec3& p) { return (p - p.cwiseMax(box.low).cwiseMin(box.high)).norm(); }
-
-/// Least distance of a box to a segment: convex along the segment, so a ternary search finds it.
-double distance_to_segment(const Box& box, const Vec3& p, const Vec3& q) {
-  double a = 0.0;
-  double b = 1.0;
-  for (int step = 0; step < 60; ++step) {
-    const double s = a + (b - a) / 3.0;
-    const double t = b - (b - a) / 3.0;
-    if (distance_to_box(box, p + s * (q - p)) <= distance_to_box(box, p + t * (q - p)))
-      b = t;
-    else
-      a = s;
-  }
-  return distance_to_box(box, p + a * (q - p));
-}
-
-/// Index range of the cells of an axis that meet [low, high].
-std::array<std::int64_t, 2> cell_range(const ReferenceSpace& space, int axis, double low, double high) {
-  const std::int64_t a = space.place(axis, low).first;
-  const std::int64_t b = space.place(axis, high).first;
-  return {std::min(a, b), std::max(a, b)};
-}
-
-void remove_along_segment(const HostFrame& frame, const Vec3& p, const Vec3& q, double radius, RemovedCells& removed) {
-  std::array<std::array<std::int64_t, 2>, 3> range;
-  for (int a = 0; a < 3; ++a)
-    range[static_cast<std::size_t>(a)] =
-        cell_range(frame.space, a, std::min(p[a], q[a]) - radius, std::max(p[a], q[a]) + radius);
-  for (std::int64_t k = range[2][0]; k <= range[2][1]; ++k)
-    for (std::int64_t j = range[1][0]; j <= range[1][1]; ++j)
-      for (std::int64_t i = range[0][0]; i <= range[0][1]; ++i)
-        if (distance_to_segment(frame.space.box({i, j, k}), p, q) <= radius) removed.add({i, j, k});
-}
-
-/// Removes every cell that comes within the tube's radius of its axis: no less than the cells that meet it.
-void remove_cells_at_tube(const HostFrame& frame, const Tube& tube, RemovedCells& removed) {
-  const double radius = tube.reference_radius * (1.0 + 1e-9);
-  for (std::size_t k = 0; k + 1 < tube.reference.axis.size(); ++k)
-    remove_along_segment(frame, tube.reference.axis[k], tube.reference.axis[k + 1], radius, removed);
-}
-
-// ---- closed and manifold
-// ----------------------------------------------------------------------------------------------
-
-/// Layered cavities take whole columns: all their boundary faces are then lateral and their cells layered prisms.
-void complete_columns(const CornerPointGrid& grid, RemovedCells& removed) {
-  for (const Cell& c : removed.list())
-    for (std::int64_t k = 0; k < grid.dimensions[2]; ++k) removed.add({c[0], c[1], k});
-}
-
-/// Where two removed cells touch along an edge only, the two others at the edge go too, so that the boundary is a
-/// 2-manifold.
-bool remove_touching_edges(RemovedCells& removed) {
-  bool changed = false;
-  for (const Cell& c : removed.list())
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t b = (a + 1) % 3;
-      for (const int sa : {-1, 1})
-        for (const int sb : {-1, 1}) {
-          Cell diagonal = c;
-          diagonal[a] += sa;
-          diagonal[b] += sb;
-          if (!removed.contains(diagonal)) continue;
-          Cell one = c;
-          one[a] += sa;
-          Cell two = c;
-          two[b] += sb;
-          if (removed.contains(one) || removed.contains(two)) continue;
-          changed |= removed.add(one);
-          changed |= removed.add(two);
-        }
-    }
-  return changed;
-}
-
-void dilate(RemovedCells& removed) {
-  for (const Cell& c : removed.list())
-    for (int side = 0; side < 6; ++side) removed.add(neighbour(c, side));
+/// Number of a node; rises as the cells' indices do.
+std::int64_t node_index(const NearWellGrid& grid, const Node& n) {
+  const auto& d = grid.dimensions();
+  return n[0] + (d[0] + 1) * (n[1] + (d[1] + 1) * n[2]);
 }
 
 // ---- boundary
 // ---------------------------------------------------------------------------------------------------------
 
-/// Vertex of the host mesh at a node, as the cells of the cavity see it; they must agree.
+/// Real positions of the nodes of the cavity's cells, which must agree.
 class HostNodes {
  public:
-  explicit HostNodes(const HostFrame& frame) : frame_(frame) {}
+  explicit HostNodes(const NearWellGrid& grid) : grid_(grid) {}
 
-  /// False when a cell sees another vertex at one of its corners than an earlier cell did (a fault), or two of its own
-  /// corners are one vertex (a pinch-out).
+  /// False when a cell sees another point at one of its corners than an earlier cell did: a fault ends there.
   bool add(const Cell& c) {
-    const HostCellId id = frame_.grid.cell_id(c[0], c[1], c[2]);
+    constexpr double same = 1e-5;  // m
     for (int corner = 0; corner < 8; ++corner) {
       const Node n{c[0] + (corner & 1), c[1] + ((corner >> 1) & 1), c[2] + (corner >> 2)};
-      const VertexId v = frame_.host.corner(id, corner & 1, (corner >> 1) & 1, corner >> 2);
-      if (nodes_.emplace(n, v).first->second != v) return false;
-    }
-    for (int corner = 0; corner < 4; ++corner)
-      if (frame_.host.corner(id, corner & 1, corner >> 1, 0) == frame_.host.corner(id, corner & 1, corner >> 1, 1))
+      const double z = grid_.corner_depth(c, corner);
+      const auto [at, is_new] = nodes_.try_emplace(node_index(grid_, n));
+      if (is_new)
+        at->second = {n, grid_.corner(c, corner)};
+      else if (std::abs(at->second.second.z() - z) > same)
         return false;
+    }
     return true;
   }
-  [[nodiscard]] VertexId at(const Node& n) const { return nodes_.at(n); }
-  [[nodiscard]] const std::map<Node, VertexId>& all() const { return nodes_; }
+  [[nodiscard]] const Vec3& at(const Node& n) const { return nodes_.at(node_index(grid_, n)).second; }
+  /// In order of the nodes.
+  [[nodiscard]] std::vector<std::pair<Node, Vec3>> on_outside() const {
+    std::vector<std::pair<Node, Vec3>> out;
+    for (const auto& [index, node] : nodes_) {
+      bool is_on_plane = false;
+      for (std::size_t a = 0; a < 3; ++a) is_on_plane |= node.first[a] == 0 || node.first[a] == grid_.dimensions()[a];
+      if (is_on_plane) out.push_back(node);
+    }
+    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return out;
+  }
 
  private:
-  const HostFrame& frame_;
-  std::map<Node, VertexId> nodes_;
+  const NearWellGrid& grid_;
+  std::unordered_map<std::int64_t, std::pair<Node, Vec3>> nodes_;
 };
 
 /// Collects the boundary of a set of removed cells and tubes.
@@ -212,6 +100,7 @@ class BoundaryBuilder {
     cavity_.vertices.clear();
     cavity_.faces.clear();
     cavity_.planes.clear();
+    for (const Tube& t : cavity_.tubes) tube_vertices_.emplace_back(t.reference.points.size(), -1);
     for (const Cell& c : cavity_.removed)
       for (int side = 0; side < 6; ++side) add_side(c, side);
     for (std::size_t t = 0; t < cavity_.tubes.size(); ++t) add_tube(t);
@@ -227,8 +116,8 @@ class BoundaryBuilder {
     }
     BoundaryFace face;
     face.kind = BoundaryFaceKind::host;
-    face.removed_cell = frame_.grid.cell_id(c[0], c[1], c[2]);
-    face.outside_cell = frame_.grid.cell_id(outside[0], outside[1], outside[2]);
+    face.removed = c;
+    face.outside = outside;
     for (const Node& n : side_nodes(c, side)) face.loop.push_back(host_vertex(n));
     const int axis = side / 2;
     const auto half = [&](const Cell& cell) {
@@ -242,7 +131,8 @@ class BoundaryBuilder {
   }
 
   std::int32_t host_vertex(const Node& n) {
-    const auto [at, is_new] = host_vertices_.emplace(n, static_cast<std::int32_t>(cavity_.vertices.size()));
+    const auto [at, is_new] =
+        host_vertices_.emplace(node_index(frame_.grid, n), static_cast<std::int32_t>(cavity_.vertices.size()));
     if (is_new) {
       CavityVertex v;
       v.reference = frame_.space.node(n[0], n[1], n[2]);
@@ -255,7 +145,7 @@ class BoundaryBuilder {
 
   void add_plane(int side) {
     const int axis = side / 2;
-    const std::int64_t n = frame_.grid.dimensions[static_cast<std::size_t>(axis)];
+    const std::int64_t n = frame_.grid.dimensions()[static_cast<std::size_t>(axis)];
     const double coordinate = frame_.space.plane(axis, side % 2 == 0 ? 0 : n);
     const double other = frame_.space.plane(axis, side % 2 == 0 ? n : 0);
     for (const MirrorPlane& p : cavity_.planes)
@@ -264,9 +154,9 @@ class BoundaryBuilder {
   }
 
   std::int32_t tube_vertex(std::size_t tube, std::size_t point) {
-    const auto [at, is_new] =
-        tube_vertices_.emplace(std::pair(tube, point), static_cast<std::int32_t>(cavity_.vertices.size()));
-    if (is_new) {
+    std::int32_t& id = tube_vertices_[tube][point];
+    if (id < 0) {
+      id = static_cast<std::int32_t>(cavity_.vertices.size());
       CavityVertex v;
       v.reference = cavity_.tubes[tube].reference.points[point];
       v.real = cavity_.tubes[tube].real.points[point];
@@ -274,7 +164,7 @@ class BoundaryBuilder {
       v.tube_point = point;
       cavity_.vertices.push_back(v);
     }
-    return at->second;
+    return id;
   }
 
   void add_tube(std::size_t t) {
@@ -370,22 +260,24 @@ class BoundaryBuilder {
   const HostFrame& frame_;
   const RemovedCells& removed_;
   Cavity& cavity_;
-  std::map<Node, std::int32_t> host_vertices_;
-  std::map<std::pair<std::size_t, std::size_t>, std::int32_t> tube_vertices_;
+  std::unordered_map<std::int64_t, std::int32_t> host_vertices_;  ///< by node_index()
+  std::vector<std::vector<std::int32_t>> tube_vertices_;          ///< per tube and point; -1: none yet
 };
 
 // ---- rounds
 // -----------------------------------------------------------------------------------------------------------
 
-std::vector<std::size_t> all_wells(const Cavity& cavity) {
-  std::vector<std::size_t> wells;
-  for (const Tube& t : cavity.tubes) wells.push_back(t.well);
-  return wells;
+std::vector<std::size_t> all_tubes(const Cavity& cavity) {
+  std::vector<std::size_t> tubes(cavity.tubes.size());
+  for (std::size_t t = 0; t < tubes.size(); ++t) tubes[t] = t;
+  return tubes;
 }
 
 double least_t_high(const BoundaryFace& face, const CavityOptions& options) {
   if (face.kind == BoundaryFaceKind::host) return options.least_host_clearance * face.natural;
-  return options.least_radial_clearance * std::min(face.natural, face.radius);
+  // Beside a plane of the grid's outside nothing can be removed to make more room.
+  const double part = face.high_vertex < 0 ? options.least_plane_clearance : options.least_radial_clearance;
+  return part * std::min(face.natural, face.radius);
 }
 
 bool is_good(const BoundaryFace& face, const CavityOptions& options) {
@@ -398,85 +290,90 @@ void remove_at_node(const Node& n, RemovedCells& removed) {
   for (int c = 0; c < 8; ++c) removed.add({n[0] - (c & 1), n[1] - ((c >> 1) & 1), n[2] - (c >> 2)});
 }
 
+/// The largest distance of a tube's outermost points from its axis.
+double widest(const RadialMesh& mesh) {
+  double widest = 0.0;
+  for (int k = 0; k < mesh.stations(); ++k)
+    for (int s = 0; s < mesh.sectors; ++s)
+      widest = std::max(widest, (mesh.point(k, mesh.rings, s) - mesh.axis[static_cast<std::size_t>(k)]).norm());
+  return widest;
+}
+
 /// One face that is not admissible: removes what is in its way. Returns a reason when nothing can be removed.
-std::optional<NoCavity> make_room(const CornerPointGrid& grid, const Cavity& cavity, const BoundaryFace& face,
-                                  const CavityOptions& options, RemovedCells& removed) {
+std::optional<NoCavity> make_room(const Cavity& cavity, const BoundaryFace& face, const CavityOptions& options,
+                                  RemovedCells& removed) {
   if (face.kind == BoundaryFaceKind::host) {
-    removed.add(grid.ijk(face.outside_cell));
+    removed.add(face.outside);
     return std::nullopt;
   }
   const bool is_high = face.t_high < least_t_high(face, options);
   const std::int32_t culprit = is_high ? face.high_vertex : face.low_vertex;
-  const std::size_t well = cavity.tubes[face.tube].well;
-  if (culprit < 0)
-    return NoCavity{"the tube comes too close to the top, base or a side of the grid: choose a smaller radius", {well}};
+  const auto none = [&](std::string reason, std::size_t tube) {
+    const double measured_depth =
+        cavity.tubes[face.tube].real.measured_depth[static_cast<std::size_t>(face.radial.segment)];
+    return NoCavity{std::move(reason), {tube}, false, {{face.tube, measured_depth}}};
+  };
+  if (culprit < 0) return none("its tube comes too close to the top, base or a side of the grid", face.tube);
   const CavityVertex& v = cavity.vertices[static_cast<std::size_t>(culprit)];
   if (v.is_host) {
     remove_at_node(v.node, removed);
     return std::nullopt;
   }
-  const std::size_t other = cavity.tubes[v.tube].well;
-  if (other == well)
-    return NoCavity{"the tube comes too close to itself: choose a smaller radius or more segments", {well}};
-  return NoCavity{"the tube comes too close to another well's: choose smaller radii", {std::max(well, other)}};
+  if (v.tube == face.tube) return none("its tube comes too close to itself", face.tube);
+  const double reach = widest(cavity.tubes[v.tube].real) + widest(cavity.tubes[face.tube].real);
+  NoCavity close = none("its tube comes too close to another one", std::max(v.tube, face.tube));
+  close.places[0].reach = reach;
+  close.places.push_back({v.tube, nearest_place({cavity.tubes[v.tube]}, v.reference).measured_depth, reach});
+  return close;
 }
 
-std::string cell_name(const Cell& c) { return fmt::format("({}, {}, {})", c[0] + 1, c[1] + 1, c[2] + 1); }
+std::string cell_name(const NearWellGrid& grid, const Cell& c) {
+  const auto [i, j, k] = grid.source().ijk(grid.source_cell(c));
+  return fmt::format("({}, {}, {})", i + 1, j + 1, k + 1);
+}
 
-/// The host's faces on the cavity's wall must have just their four corners: one that carries more, cut by a fault next
-/// to it, would not meet the cavity's face edge by edge. So must those on the grid's outside that share an edge with
-/// the wall; they belong to kept cells, and the extra vertex then is on a wall's face too.
-std::optional<std::string> check_walls(const HostFrame& frame, const RemovedCells& removed) {
-  const HostFaces& faces = frame.host.faces;
-  for (std::size_t index = 0; index < faces.size(); ++index) {
-    const auto [a, b] = faces.cells[FaceId(index)];
-    if (!b.is_valid() || removed.contains(a) == removed.contains(b)) continue;
-    if (faces.loop(FaceId(index)).size() != 4 || faces.is_fault[FaceId(index)] != 0)
-      return fmt::format(
-          "a fault beside cells {} and {} puts vertices on the cavity's wall; this is not handled yet: choose a "
-          "smaller radius",
-          cell_name(frame.grid.ijk(a)), cell_name(frame.grid.ijk(b)));
+/// Why no more cells could be removed.
+NoCavity blocked(const HostFrame& frame, const Cavity& cavity, const RemovedCells& removed) {
+  if (removed.blocked()) {
+    const Box box = frame.space.box(*removed.blocked());
+    return {fmt::format("a fault, a gap or a place without thickness at cell {} is too close to its tube",
+                        cell_name(frame.grid, *removed.blocked())),
+            all_tubes(cavity),
+            false,
+            {nearest_place(cavity.tubes, 0.5 * (box.low + box.high))}};
   }
-  return std::nullopt;
+  return {"its tube comes too close to a corner of the cavity that cannot be removed", all_tubes(cavity)};
 }
 
-/// Every cell of the cavity and every kept cell at its boundary must see one vertex at each node: no fault and no
-/// pinch-out.
-std::optional<std::string> check_nodes(const HostFrame& frame, const RemovedCells& removed, const Cavity& cavity,
-                                       HostNodes& nodes) {
-  for (const Cell& c : cavity.removed)
-    if (!nodes.add(c))
-      return fmt::format(
-          "a fault or a pinch-out at cell {} lies inside the cavity; these are not handled yet: choose a smaller "
-          "radius",
-          cell_name(c));
-  for (const Cell& c : cavity.removed)
-    for (int side = 0; side < 6; ++side) {
-      const Cell outside = neighbour(c, side);
-      if (!removed.is_inside_grid(outside) || removed.contains(outside)) continue;
-      const HostCellId id = frame.grid.cell_id(outside[0], outside[1], outside[2]);
-      for (const Node& n : side_nodes(c, side))
-        if (frame.host.corner(id, static_cast<int>(n[0] - outside[0]), static_cast<int>(n[1] - outside[1]),
-                              static_cast<int>(n[2] - outside[2])) != nodes.at(n))
-          return fmt::format(
-              "a fault or a gap between cells {} and {} lies on the cavity's wall; this is not handled yet: choose a "
-              "smaller radius",
-              cell_name(c), cell_name(outside));
-    }
-  return check_walls(frame, removed);
+/// Least distance of two segments, by their ends and by the interior minimum.
+double segment_distance(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  const Vec3 u = q - p;
+  const Vec3 v = s - r;
+  const Vec3 w = p - r;
+  const double a = u.squaredNorm();
+  const double b = u.dot(v);
+  const double c = v.squaredNorm();
+  const double det = a * c - b * b;
+  const auto on = [](double t) { return std::clamp(t, 0.0, 1.0); };
+  double best = std::numeric_limits<double>::infinity();
+  const auto trial = [&](double t, double x) { best = std::min(best, (p + on(t) * u - r - on(x) * v).norm()); };
+  if (det > 1e-12 * a * c) trial((b * v.dot(w) - c * u.dot(w)) / det, (a * v.dot(w) - b * u.dot(w)) / det);
+  trial(0.0, v.dot(w) / c);
+  trial(1.0, v.dot(q - r) / c);
+  trial(-u.dot(w) / a, 0.0);
+  trial(u.dot(s - p) / a, 1.0);
+  return best;
 }
 
 /// Nodes of the footprint on the mirror planes that no boundary face uses.
 void add_plane_nodes(const HostFrame& frame, const HostNodes& nodes, Cavity& cavity) {
+  const auto outside = nodes.on_outside();
+  if (outside.empty()) return;
   std::set<Node> used;
   for (const CavityVertex& v : cavity.vertices)
     if (v.is_host) used.insert(v.node);
-  for (const auto& [n, vertex] : nodes.all()) {
-    if (used.contains(n)) continue;
-    bool is_on_plane = false;
-    for (std::size_t a = 0; a < 3; ++a) is_on_plane |= n[a] == 0 || n[a] == frame.grid.dimensions[a];
-    if (is_on_plane) cavity.plane_nodes.push_back({frame.space.node(n[0], n[1], n[2]), frame.host.vertices[vertex]});
-  }
+  for (const auto& [n, point] : outside)
+    if (!used.contains(n)) cavity.plane_nodes.push_back({frame.space.node(n[0], n[1], n[2]), point});
 }
 
 /// Volume of a tube in E_ref: each segment as the prismatoid between its two polygons, faces as fans.
@@ -513,24 +410,43 @@ void set_reference_volume(const HostFrame& frame, Cavity& cavity) {
   for (const Tube& t : cavity.tubes) cavity.reference_volume -= tube_volume(t.reference);
 }
 
-/// Least distance of two segments, by their ends and by the interior minimum.
-double segment_distance(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-  const Vec3 u = q - p;
-  const Vec3 v = s - r;
-  const Vec3 w = p - r;
-  const double a = u.squaredNorm();
-  const double b = u.dot(v);
-  const double c = v.squaredNorm();
-  const double det = a * c - b * b;
-  const auto on = [](double t) { return std::clamp(t, 0.0, 1.0); };
-  double best = std::numeric_limits<double>::infinity();
-  const auto trial = [&](double t, double x) { best = std::min(best, (p + on(t) * u - r - on(x) * v).norm()); };
-  if (det > 1e-12 * a * c) trial((b * v.dot(w) - c * u.dot(w)) / det, (a * v.dot(w) - b * u.dot(w)) / det);
-  trial(0.0, v.dot(w) / c);
-  trial(1.0, v.dot(q - r) / c);
-  trial(-u.dot(w) / a, 0.0);
-  trial(u.dot(s - p) / a, 1.0);
-  return best;
+/// The box of stations [first, last] of a tube's axis.
+Box axis_box(const std::vector<Vec3>& axis, std::size_t first, std::size_t last) {
+  Box box{axis[first], axis[first]};
+  for (std::size_t k = first + 1; k <= last; ++k) box = {box.low.cwiseMin(axis[k]), box.high.cwiseMax(axis[k])};
+  return box;
+}
+
+/// Boxes are at least this far apart.
+bool is_apart(const Box& a, const Box& b, double distance) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).maxCoeff() >= distance;
+}
+
+/// Segments of two polylines that come closer than they may.
+struct Closer {
+  double distance = 0.0;
+  std::size_t of_one = 0;
+  std::size_t of_two = 0;
+};
+
+/// The distance of the first pair of segments of two axes that are closer than `least`.
+std::optional<Closer> first_closer(const std::vector<Vec3>& one, const std::vector<Vec3>& two, double least) {
+  constexpr std::size_t run = 16;  // segments that are passed over at once
+  std::vector<Box> boxes;
+  for (std::size_t j = 0; j + 1 < two.size(); j += run)
+    boxes.push_back(axis_box(two, j, std::min(j + run, two.size() - 1)));
+  const Box whole = axis_box(two, 0, two.size() - 1);
+  for (std::size_t i = 0; i + 1 < one.size(); ++i) {
+    const Box box = axis_box(one, i, i + 1);
+    if (is_apart(box, whole, least)) continue;
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      if (is_apart(box, boxes[b], least)) continue;
+      for (std::size_t j = b * run; j + 1 < two.size() && j < (b + 1) * run; ++j)
+        if (const double d = segment_distance(one[i], one[i + 1], two[j], two[j + 1]); d < least)
+          return Closer{d, i, j};
+    }
+  }
+  return std::nullopt;
 }
 
 /// Two tubes that overlap: the later well gives way.
@@ -538,69 +454,21 @@ std::optional<NoCavity> overlapping_tubes(const std::vector<Tube>& tubes) {
   for (std::size_t a = 0; a < tubes.size(); ++a)
     for (std::size_t b = a + 1; b < tubes.size(); ++b) {
       const double least = tubes[a].reference_radius + tubes[b].reference_radius;
-      const auto& one = tubes[a].reference.axis;
-      const auto& two = tubes[b].reference.axis;
-      for (std::size_t i = 0; i + 1 < one.size(); ++i)
-        for (std::size_t j = 0; j + 1 < two.size(); ++j)
-          if (const double d = segment_distance(one[i], one[i + 1], two[j], two[j + 1]); d < least)
-            return NoCavity{fmt::format("its tube overlaps another well's: their paths come within {:.1f} m where the "
-                                        "two radii need {:.1f} m; choose smaller "
-                                        "radii",
-                                        d, least),
-                            {std::max(tubes[a].well, tubes[b].well)}};
+      if (const auto at = first_closer(tubes[a].reference.axis, tubes[b].reference.axis, least)) {
+        const double reach = widest(tubes[a].real) + widest(tubes[b].real);
+        return NoCavity{fmt::format("its tube overlaps another one: their paths come within {:.1f} m where the two "
+                                    "radii need {:.1f} m",
+                                    at->distance, least),
+                        {b},
+                        false,
+                        {{a, tubes[a].real.measured_depth[at->of_one], reach},
+                         {b, tubes[b].real.measured_depth[at->of_two], reach}}};
+      }
     }
   return std::nullopt;
 }
 
-void make_closed(const HostFrame& frame, const std::vector<Tube>& tubes, RemovedCells& removed) {
-  const bool all_layered = std::all_of(tubes.begin(), tubes.end(), [](const Tube& t) { return t.layered; });
-  do {
-    if (all_layered) complete_columns(frame.grid, removed);
-  } while (remove_touching_edges(removed));
-}
-
 }  // namespace
-
-void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices,
-                       const std::vector<MirrorPlane>& planes) {
-  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t index) {
-    BoundaryFace& f = faces[index];
-    f.t_low = -std::numeric_limits<double>::infinity();
-    f.t_high = std::numeric_limits<double>::infinity();
-    f.low_vertex = f.high_vertex = -1;
-    const double flat = 1e-9 * f.radius;  // closer to the face's plane counts as on it: rounding of the vertices
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      const Vec3 d = vertices[v].reference - f.center;
-      const double h = f.normal.dot(d);
-      const double p = d.squaredNorm() - f.radius * f.radius;
-      const auto id = static_cast<std::int32_t>(v);
-      if (std::abs(h) <= flat) {
-        if (p >= -1e-9 * f.radius * f.radius) continue;
-        if (std::find(f.loop.begin(), f.loop.end(), id) != f.loop.end()) continue;
-        f.t_high = -std::numeric_limits<double>::infinity();
-        f.high_vertex = id;
-        continue;
-      }
-      const double t = p / (2.0 * h);
-      if (h > 0.0 && t < f.t_high) {
-        f.t_high = t;
-        f.high_vertex = id;
-      } else if (h < 0.0 && t > f.t_low) {
-        f.t_low = t;
-        f.low_vertex = id;
-      }
-    }
-    for (const MirrorPlane& plane : planes) {
-      const double toward = -plane.inward * f.normal[plane.axis];  // speed of c(t) towards the plane
-      const double distance = plane.inward * (f.center[plane.axis] - plane.coordinate);
-      // A site stays on its side of the plane: four fifths of the way at most.
-      if (toward > 1e-9 && 0.8 * distance / toward < f.t_high) {
-        f.t_high = 0.8 * distance / toward;
-        f.high_vertex = -1;
-      }
-    }
-  });
-}
 
 std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes,
                                             const CavityOptions& options) {
@@ -608,50 +476,97 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
   Cavity cavity;
   cavity.tubes = std::move(tubes);
   RemovedCells removed(frame.grid);
-  for (const Tube& t : cavity.tubes) remove_cells_at_tube(frame, t, removed);
-  constexpr std::int64_t most_rounds = 200;
-  int dilations = options.dilation;
+  for (std::size_t t = 0; t < cavity.tubes.size(); ++t) {
+    remove_cells_at_tube(frame, cavity.tubes[t], removed);
+    if (removed.blocked()) {
+      NoCavity none = blocked(frame, cavity, removed);
+      none.tubes = {t};
+      return none;
+    }
+  }
+  const bool in_columns =
+      std::all_of(cavity.tubes.begin(), cavity.tubes.end(), [](const Tube& t) { return t.layered; });
+  for (const Tube& tube : cavity.tubes) remove_cells_around_tube(frame, tube, options.dilation, in_columns, removed);
+  constexpr std::int64_t most_rounds = 60;
   for (cavity.rounds = 1;; ++cavity.rounds) {
-    make_closed(frame, cavity.tubes, removed);
+    make_closed(frame.grid, in_columns, removed);
     if (cavity.rounds > most_rounds)
-      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed): choose a smaller "
-                                  "radius, or more segments",
-                                  most_rounds, removed.count()),
-                      all_wells(cavity)};
-    if (removed.count() > options.most_cells)
       return NoCavity{
-          fmt::format(
-              "the cavity would swallow {} cells: the host's cells are too flat or too large for this radius and its "
-              "refinement is not available yet; choose a smaller radius or refine the grid laterally near the well",
-              removed.count()),
-          all_wells(cavity)};
+          fmt::format("no cavity was found in {} rounds of removing cells ({} removed)", most_rounds, removed.count()),
+          all_tubes(cavity)};
+    if (removed.count() > options.most_cells)
+      return NoCavity{fmt::format("its cavity would swallow {} cells", removed.count()), all_tubes(cavity)};
     cavity.removed = removed.list();
     BoundaryBuilder(frame, removed, cavity).build();
     set_sphere_bounds(cavity.faces, cavity.vertices, cavity.planes);
     const std::int64_t before = removed.count();
     for (const BoundaryFace& f : cavity.faces)
       if (!is_good(f, options))
-        if (auto reason = make_room(frame.grid, cavity, f, options, removed)) return *reason;
+        if (auto reason = make_room(cavity, f, options, removed)) return *reason;
     if (removed.count() != before) continue;
     if (!std::all_of(cavity.faces.begin(), cavity.faces.end(),
                      [&](const BoundaryFace& f) { return is_good(f, options); }))
-      return NoCavity{
-          "the tube comes too close to a corner of the cavity that cannot be removed: choose a smaller radius",
-          all_wells(cavity)};
-    if (dilations == 0) break;
-    --dilations;
-    dilate(removed);
+      return blocked(frame, cavity, removed);
+    break;
   }
-  HostNodes nodes(frame);
-  if (const auto reason = check_nodes(frame, removed, cavity, nodes)) return NoCavity{*reason, all_wells(cavity)};
+  HostNodes nodes(frame.grid);
+  for (const Cell& c : cavity.removed)
+    if (!nodes.add(c))
+      return NoCavity{fmt::format("a fault ends inside its cavity, at cell {}", cell_name(frame.grid, c)),
+                      all_tubes(cavity),
+                      false,
+                      {nearest_place(cavity.tubes, frame.space.box(c).low)}};
   for (CavityVertex& v : cavity.vertices)
-    if (v.is_host) {
-      v.host = nodes.at(v.node);
-      v.real = frame.host.vertices[v.host];
-    }
+    if (v.is_host) v.real = nodes.at(v.node);
   add_plane_nodes(frame, nodes, cavity);
   set_reference_volume(frame, cavity);
   return cavity;
+}
+
+TubePlace nearest_place(const std::vector<Tube>& tubes, const Vec3& point, RadialMesh Tube::*mesh) {
+  TubePlace best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < tubes.size(); ++t)
+    for (std::size_t k = 0; k < (tubes[t].*mesh).axis.size(); ++k)
+      if (const double d = ((tubes[t].*mesh).axis[k] - point).squaredNorm(); d < least) {
+        least = d;
+        best = {t, tubes[t].real.measured_depth[k]};
+      }
+  return best;
+}
+
+void bind_to_host(const NearWellGrid& grid, const RefinementPlan& plan, Cavity& cavity) {
+  const HostMesh& host = grid.host();
+  const LatticePoint size{plan.unit[0] / grid.parts()[0], plan.unit[1] / grid.parts()[1]};
+  std::map<LatticePoint, HostCellId> refined;
+  for (const RefinedColumn& c : plan.columns) refined.emplace(c.low, c.first_cell);
+  const auto id_of = [&](const Cell& c) {
+    const auto at = refined.find({c[0] * size[0], c[1] * size[1]});
+    return at != refined.end() ? HostCellId(at->second.value() + c[2]) : grid.source_cell(c);
+  };
+  const bool turned = host.corners.upside_down;
+  std::unordered_map<std::int64_t, VertexId> vertices;
+  cavity.removed_cells.clear();
+  for (const Cell& c : cavity.removed) {
+    const HostCellId id = id_of(c);
+    cavity.removed_cells.push_back(id);
+    // Source cells count their corners in the order of the layers, refined ones downwards.
+    const int flip = turned && id.value() < grid.source().cell_count() ? 4 : 0;
+    const auto corners = host.corners_of(id);
+    for (int corner = 0; corner < 8; ++corner)
+      vertices.try_emplace(node_index(grid, {c[0] + (corner & 1), c[1] + ((corner >> 1) & 1), c[2] + (corner >> 2)}),
+                           corners[static_cast<std::size_t>(corner ^ flip)]);
+  }
+  for (CavityVertex& v : cavity.vertices)
+    if (v.is_host) {
+      v.host = vertices.at(node_index(grid, v.node));
+      v.real = host.vertices[v.host];
+    }
+  for (BoundaryFace& f : cavity.faces)
+    if (f.kind == BoundaryFaceKind::host) {
+      f.removed_cell = id_of(f.removed);
+      f.outside_cell = id_of(f.outside);
+    }
 }
 
 }  // namespace wellknit

@@ -24,11 +24,11 @@ namespace wellknit {
 struct CavityVertex {
   Vec3 reference = Vec3::Zero();  ///< in E_ref
   Vec3 real = Vec3::Zero();
-  bool is_host = false;                ///< a node of the grid; else a point of a tube
-  VertexId host;                       ///< of the host mesh, host vertices
-  std::array<std::int64_t, 3> node{};  ///< of the grid, host vertices
-  std::size_t tube = 0;                ///< place in the cavity's tubes, tube vertices
-  std::size_t tube_point = 0;          ///< RadialMesh::point_index
+  bool is_host = false;        ///< a node of the grid; else a point of a tube
+  VertexId host;               ///< of the host mesh, host vertices
+  NearWellCell node{};         ///< of the near-well grid, host vertices
+  std::size_t tube = 0;        ///< place in the cavity's tubes, tube vertices
+  std::size_t tube_point = 0;  ///< RadialMesh::point_index
 };
 
 enum class BoundaryFaceKind : std::uint8_t { host, lateral, cap };
@@ -46,10 +46,12 @@ struct BoundaryFace {
   double t_high = std::numeric_limits<double>::infinity();
   std::int32_t low_vertex = -1;   ///< what sets t_low; -1: nothing
   std::int32_t high_vertex = -1;  ///< what sets t_high; -1: nothing or a plane
-  HostCellId outside_cell;        ///< kind host: the kept cell behind it, active or not
-  HostCellId removed_cell;        ///< kind host: the removed cell before it
-  std::size_t tube = 0;           ///< kinds lateral, cap: place in the cavity's tubes
-  RadialIndex radial;             ///< kinds lateral, cap: the radial cell behind it; ring -1: the bore
+  NearWellCell outside{};         ///< kind host: the kept cell behind it, active or not
+  NearWellCell removed{};         ///< kind host: the removed cell before it
+  HostCellId outside_cell;        ///< kind host: the same in the host, set by bind_to_host()
+  HostCellId removed_cell;
+  std::size_t tube = 0;  ///< kinds lateral, cap: place in the cavity's tubes
+  RadialIndex radial;    ///< kinds lateral, cap: the radial cell behind it; ring -1: the bore
 };
 
 /// A plane of the grid's own outside that the cavity meets.
@@ -67,7 +69,8 @@ struct PlaneNode {
 
 struct Cavity {
   std::vector<Tube> tubes;
-  std::vector<std::array<std::int64_t, 3>> removed;  ///< cells, in order of their ids
+  std::vector<NearWellCell> removed;      ///< in order of their indices
+  std::vector<HostCellId> removed_cells;  ///< the same in the host, refined ones too; set by bind_to_host()
   std::vector<CavityVertex> vertices;
   std::vector<BoundaryFace> faces;
   std::vector<MirrorPlane> planes;
@@ -76,26 +79,45 @@ struct Cavity {
   std::int64_t rounds = 0;
 };
 
-/// Why there is no cavity. `wells` are those to leave out.
+/// A place on a tube.
+struct TubePlace {
+  std::size_t tube = 0;  ///< place in the list of tubes
+  double measured_depth = 0.0;
+  double reach = 0.0;  ///< m on either side that a tube should leave out; 0: one drainage radius
+};
+
+/// Why there is no cavity. `tubes` are those to leave out, by place in the list given.
 struct NoCavity {
   std::string reason;
-  std::vector<std::size_t> wells;
+  std::vector<std::size_t> tubes;
+  bool may_be_larger = false;       ///< a larger cavity may do
+  std::vector<TubePlace> places{};  ///< where it fails, as far as is known: a tube that leaves these out may do
 };
 
 struct CavityOptions {
   double least_host_clearance = 0.5;  ///< tau of method.md §6: least t_high of a host face over half its removed cell
   double least_radial_clearance =
-      0.5;                           ///< least t_high of a tube's face over the smaller of its natural t and its radius
-  int dilation = 0;                  ///< rounds of cells removed beyond what admissibility asks for
-  std::int64_t most_cells = 200000;  ///< removed; beyond it the well needs a refined host
+      0.5;  ///< least t_high of a tube's face over the smaller of its natural t and its radius
+  double least_plane_clearance = 0.2;  ///< the same where a plane of the grid's outside sets it
+  /// Widths of a shell around each tube of which cells are removed beyond what admissibility asks for, where nothing
+  /// keeps them; a width is the larger of half the radius and a cell.
+  int dilation = 0;
+  std::int64_t most_cells = 120000;  ///< removed; beyond it the well needs a refined host
 };
 
 /// Removes cells until every boundary face is admissible and can hold its site.
 std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<Tube> tubes,
                                             const CavityOptions& options);
 
-/// Sets t_low and t_high of all faces against all vertices and planes. Parallel over faces; the result does not depend
-/// on it.
+/// The place on one of the tubes whose axis comes nearest to a point; `mesh`: in E_ref or in the real space.
+TubePlace nearest_place(const std::vector<Tube>& tubes, const Vec3& point, RadialMesh Tube::*mesh = &Tube::reference);
+
+/// Gives the cavity's cells, walls and vertices their ids in the host, after refine_host() with a plan that holds the
+/// columns of the cavity.
+void bind_to_host(const NearWellGrid& grid, const RefinementPlan& plan, Cavity& cavity);
+
+/// Sets t_low and t_high of all faces against all vertices and planes; both end at four times the larger of the face's
+/// radius and natural distance, with no vertex named. Parallel over faces; the result does not depend on it.
 void set_sphere_bounds(std::vector<BoundaryFace>& faces, const std::vector<CavityVertex>& vertices,
                        const std::vector<MirrorPlane>& planes);
 

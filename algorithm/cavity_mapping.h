@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,11 @@ struct MappingReport {
   std::int64_t loops = 0;
   std::int64_t points_inserted = 0;
   std::int64_t tetrahedra = 0;
-  std::int64_t plane_nodes_left_out = 0;  ///< of the grid's outside: their real positions contradict the tubes' there
-  double smallest_ratio = 0.0;            ///< of real to reference volume
-  std::vector<std::size_t>
-      tubes_at_fault;   ///< places in the cavity's tubes: those with a vertex in a tetrahedron that stays inverted
-  std::string failure;  ///< why the mapping is not usable; empty when it is
+  std::int64_t plane_nodes_left_out = 0;    ///< of the grid's outside: their real positions contradict the tubes' there
+  double smallest_ratio = 0.0;              ///< of real to reference volume
+  std::vector<std::size_t> tubes_at_fault;  ///< places in the cavity's tubes: those at inverted tetrahedra
+  std::vector<TubePlace> places_at_fault;   ///< nearest to the inverted tetrahedra when there were fewest
+  std::string failure;                      ///< why the mapping is not usable; empty when it is
 };
 
 class CavityMapping {
@@ -40,6 +41,8 @@ class CavityMapping {
   [[nodiscard]] const MappingReport& report() const;
   /// Real position of a point of the cavity in E_ref, by barycentric coordinates.
   [[nodiscard]] Vec3 to_real(const Vec3& reference) const;
+  /// The same for many points, in their order: neighbours are looked up one after the other.
+  [[nodiscard]] std::vector<Vec3> to_real(std::span<const Vec3> reference) const;
 
  private:
   class Implementation;

@@ -22,8 +22,19 @@ struct OutwardFace {
 /// to the point. A cell is seen whole from a point when this is positive.
 double smallest_height(std::span<const OutwardFace> faces, const Vec3& point);
 
-/// A point near `start` from which all faces are seen: projections onto the face that hides most (the relaxation method
-/// of Agmon, 1954), with as much height as can be had up to a twentieth of `size`. Empty when none is found.
+/// The point from which the faces are seen best, and how well.
+struct DeepestPoint {
+  Vec3 point = Vec3::Zero();
+  double height = 0.0;  ///< smallest_height() there, m; not positive: no point sees all faces
+};
+
+/// The point with the largest smallest height: a linear programme in its coordinates and the height, solved exactly
+/// (but for rounding) by Seidel's method. Looked for within 100 times `size` (m, the cell's) of `start`.
+DeepestPoint deepest_point(std::span<const OutwardFace> faces, const Vec3& start, double size);
+
+/// A point near `start` from which all faces are seen, with a height of a twentieth of `size`, or half of the largest
+/// height where that is less: by relaxation, else on the way from `start` to the deepest point. Empty when no point
+/// sees all, to 1e-9 of `size`.
 std::optional<Vec3> point_that_sees_all(std::span<const OutwardFace> faces, const Vec3& start, double size);
 
 }  // namespace wellknit

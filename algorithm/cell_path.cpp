@@ -19,6 +19,8 @@ namespace {
 constexpr double nudge = 5e-7;
 /// Bisection stops here, m.
 constexpr double bisection_accuracy = 1e-8;
+/// Looks for the next cell along a line's way through the grid's box.
+constexpr double most_probes = 20000.0;
 /// Samples along a line's way through a cell's box.
 constexpr int samples_in_cell = 16;
 
@@ -101,8 +103,10 @@ class Segment {
     const auto anywhere = [&](double s) { return locator_.locate(at(s)).has_value(); };
     double outside = std::max(t, first);
     if (outside > last) return 1.0;
+    // Bounded: pillars that nearly lie flat make grids, and wells in them, of any length.
+    const double step = std::max(probe_ / length_, (last - first) / most_probes);
     for (double next = outside; outside < last; outside = next) {
-      next = std::min(outside + probe_ / length_, last);
+      next = std::min(outside + step, last);
       if (anywhere(next)) return bisect(next, outside, anywhere);
     }
     return 1.0;

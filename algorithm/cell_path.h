@@ -21,7 +21,8 @@ struct CellPart {
 
 /// The parts in the order of measured depth, ends exact to about 1e-6 m. A cell has several where the trajectory bends
 /// inside it or comes back. Stretches outside of the grid and in gaps have none; a gap's far side is searched for in
-/// steps of a quarter of the mean cell thickness, so a thinner cell between two gaps may be passed over.
+/// steps of a quarter of the mean cell thickness, or of a 20,000th of the way through the grid where that is longer, so
+/// a thinner cell between two gaps may be passed over.
 std::vector<CellPart> cells_along(const CornerPointGrid& grid, const CellLocator& locator,
                                   const Trajectory& trajectory);
 

@@ -64,7 +64,7 @@ class ConnectionEditor {
       }
       if (kept > 0)
         notes_.push_back(
-            fmt::format("{} connections at the edge of the wells' meshes keep their computed "
+            fmt::format("{} connections of refined cells or at the edge of the wells' meshes keep their computed "
                         "transmissibility: {} of EDIT belongs to cells that were replaced",
                         kept, keyword_of(arrays[axis])));
       note_inside(steps, arrays[axis]);
@@ -80,7 +80,15 @@ class ConnectionEditor {
   }
 
   [[nodiscard]] bool is_kept(HostCellId cell) const { return assembly_.cell_of[cell].is_valid(); }
-  [[nodiscard]] bool is_replaced(HostCellId cell) const { return host_.exists[cell] != 0 && !is_kept(cell); }
+  /// Made cells took some of its volume.
+  [[nodiscard]] bool is_replaced(HostCellId cell) const {
+    if (host_.exists[cell] == 0 || is_kept(cell)) return false;
+    const auto begin = static_cast<std::size_t>(mesh_.transfer.start[cell.index()]);
+    const auto end = static_cast<std::size_t>(mesh_.transfer.start[cell.index() + 1]);
+    for (std::size_t n = begin; n < end; ++n)
+      if (mesh_.cells.kind[mesh_.transfer.cell[n]] >= CellKind::transition) return true;
+    return false;
+  }
 
   void note_inside(const ArrayEdits& steps, ComputedArray array) {
     std::int64_t count = 0;
@@ -105,18 +113,32 @@ class ConnectionEditor {
       const HostCellId other = mesh_.cells.source_cell[b];
       if (!one.is_valid() || !other.is_valid()) continue;
       if (const auto found = connection_of_.find(ordered(one, other)); found != connection_of_.end())
-        found->second = ConnectionId(n);
+        found->second.emplace_back(n);
     }
+  }
+
+  /// Gives the connections between the parts of two source cells a total, in their present proportions.
+  void set_total(const std::vector<ConnectionId>& connections, double total) {
+    auto& t = mesh_.connections.transmissibility;
+    double sum = 0.0;
+    for (const ConnectionId c : connections) sum += t[c];
+    for (const ConnectionId c : connections)
+      t[c] = connections.size() == 1 ? total
+             : sum > 0.0             ? total * (t[c] / sum)
+                                     : total / static_cast<double>(connections.size());
+  }
+  [[nodiscard]] double total_of(const std::vector<ConnectionId>& connections) const {
+    double sum = 0.0;
+    for (const ConnectionId c : connections) sum += mesh_.connections.transmissibility[c];
+    return sum;
   }
 
   void multiply_pairs() {
     std::int64_t missing = 0;
     for (const CellPairValue& entry : grid_.edits.non_neighbour_multipliers) {
-      const ConnectionId found = connection_of_[ordered(entry.first, entry.second)];
-      if (found.is_valid())
-        mesh_.connections.transmissibility[found] *= entry.value;
-      else
-        ++missing;
+      const auto& found = connection_of_[ordered(entry.first, entry.second)];
+      for (const ConnectionId c : found) mesh_.connections.transmissibility[c] *= entry.value;
+      missing += found.empty() ? 1 : 0;
     }
     if (missing > 0)
       notes_.push_back(fmt::format("{} records of EDITNNC name cells that the grid does not connect", missing));
@@ -128,11 +150,9 @@ class ConnectionEditor {
       last[ordered(entry.first, entry.second)] = entry.value;
     std::int64_t missing = 0;
     for (const auto& [pair, value] : last) {
-      const ConnectionId found = connection_of_[pair];
-      if (found.is_valid())
-        mesh_.connections.transmissibility[found] = value;
-      else
-        ++missing;
+      const auto& found = connection_of_[pair];
+      set_total(found, value);
+      missing += found.empty() ? 1 : 0;
     }
     if (missing > 0)
       notes_.push_back(fmt::format("{} records of EDITNNCR name cells that the grid does not connect", missing));
@@ -148,7 +168,7 @@ class ConnectionEditor {
       if (is_kept(pinch.upper) && is_kept(pinch.lower))
         add(assembly_.cell_of[pinch.upper], assembly_.cell_of[pinch.lower], t, pinch.multiplier,
             ConnectionKind::pinch_out);
-      else
+      else if (!host_.is_refined(pinch.upper) || !add_between_parts(pinch, t))
         ++beside_wells;
     }
     if (beside_wells > 0)
@@ -156,6 +176,39 @@ class ConnectionEditor {
           fmt::format("{} connections across gaps and pinch-outs lead to cells that the wells' meshes replace; they "
                       "are left out",
                       beside_wells));
+  }
+
+  /// Shares a connection of refined cells between those of the same column, by their sizes in plan. False: none is
+  /// left.
+  bool add_between_parts(const PinchConnection& pinch, double transmissibility) {
+    if (parts_of_.empty()) collect_parts();
+    bool found = false;
+    for (const Part& upper : parts_of_[pinch.upper])
+      for (const Part& lower : parts_of_[pinch.lower]) {
+        if (upper.cell == lower.cell || !meets(upper.box, lower.box)) continue;
+        const double share = (upper.box.high[0] - upper.box.low[0]) * (upper.box.high[1] - upper.box.low[1]);
+        add(assembly_.cell_of[upper.cell], assembly_.cell_of[lower.cell], share * transmissibility, pinch.multiplier,
+            ConnectionKind::pinch_out);
+        found = true;
+      }
+    return found;
+  }
+
+  /// The upper part is at the high side of its cell, the lower one at the low side of its own, in the same column.
+  static bool meets(const PieceBox& upper, const PieceBox& lower) {
+    return upper.low[0] == lower.low[0] && upper.low[1] == lower.low[1] && upper.high[0] == lower.high[0] &&
+           upper.high[1] == lower.high[1] && upper.high[2] == 1.0 && lower.low[2] == 0.0;
+  }
+
+  void collect_parts() {
+    const RefinedCells& refined = host_.refined;
+    for (std::size_t c = 0; c < refined.size(); ++c) {
+      const HostCellId cell(c + host_.source_count());
+      if (!is_kept(cell)) continue;
+      for (auto p = static_cast<std::size_t>(refined.piece_start[c]);
+           p < static_cast<std::size_t>(refined.piece_start[c + 1]); ++p)
+        parts_of_[refined.piece_source[p]].push_back({cell, refined.piece_box[p]});
+    }
   }
 
   void add_non_neighbours() {
@@ -169,8 +222,8 @@ class ConnectionEditor {
     }
     std::map<std::pair<CellId, CellId>, double> fresh;
     for (const auto& [pair, value] : sums) {
-      if (ConnectionId& found = connection_of_[pair]; found.is_valid())
-        mesh_.connections.transmissibility[found] += value;
+      if (const auto& found = connection_of_[pair]; !found.empty())
+        set_total(found, total_of(found) + value);
       else
         share(pair, value, fresh);
     }
@@ -179,7 +232,7 @@ class ConnectionEditor {
       const ConnectionId added = add(cells.first, cells.second, value, 1.0, ConnectionKind::deck_nnc);
       const HostCellId one = mesh_.cells.source_cell[cells.first];
       const HostCellId other = mesh_.cells.source_cell[cells.second];
-      if (one.is_valid() && other.is_valid()) connection_of_[ordered(one, other)] = added;
+      if (one.is_valid() && other.is_valid()) connection_of_[ordered(one, other)].push_back(added);
     }
     if (inactive > 0)
       notes_.push_back(fmt::format("{} records of NNC name an inactive cell and are left out", inactive));
@@ -230,6 +283,7 @@ class ConnectionEditor {
     c.planarity.push_back(0.0);
     c.kind.push_back(kind);
     c.multiplier.push_back(multiplier);
+    c.linear_flux_error.push_back(Vec3::Zero());
     return c.cells.push_back({a, b});
   }
 
@@ -238,7 +292,12 @@ class ConnectionEditor {
   const HostMultipliers& multipliers_;
   Assembly& assembly_;
   Mesh& mesh_;
-  std::map<SourcePair, ConnectionId> connection_of_;  ///< of the pairs that the deck names
+  std::map<SourcePair, std::vector<ConnectionId>> connection_of_;  ///< of the pairs that the deck names
+  struct Part {
+    HostCellId cell;
+    PieceBox box;
+  };
+  std::map<HostCellId, std::vector<Part>> parts_of_;  ///< kept refined cells in each source cell
   std::vector<std::string> notes_;
 };
 

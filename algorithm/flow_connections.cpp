@@ -3,6 +3,8 @@
 
 #include "algorithm/flow_connections.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,17 +13,12 @@
 #include "algorithm/cell_path.h"
 #include "algorithm/host_transmissibility.h"
 #include "algorithm/radial_flow.h"
+#include "algorithm/rock_tensor.h"
+#include "algorithm/tube_flow.h"
 
 namespace wellknit {
 
 namespace {
-
-/// Permeability with net-to-gross on the lateral directions, as NEWTRAN applies it, m2.
-Vec3 flow_permeability(const Cells& cells, CellId cell) {
-  const double ntg = cells.net_to_gross[cell];
-  const Vec3& k = cells.permeability[cell];
-  return {k.x() * ntg, k.y() * ntg, k.z()};
-}
 
 double degrees_between(const Vec3& a, const Vec3& b) {
   const double scale = a.norm() * b.norm();
@@ -40,22 +37,36 @@ struct HalfFace {
 };
 
 /// Linear two-point half: A n.K d / d^2.
-double linear_half(const Vec3& k, const Vec3& d, const Vec3& area_vector) {
+double linear_half(const Eigen::Matrix3d& k, const Vec3& d, const Vec3& area_vector) {
   const double d2 = d.squaredNorm();
-  return d2 > 0.0 ? std::abs(area_vector.dot(k.cwiseProduct(d))) / d2 : 0.0;
+  return d2 > 0.0 ? std::abs(area_vector.dot(k * d)) / d2 : 0.0;
 }
+
+/// Of a transition cell: its site lies on the face's bisector, but the line to it misses the face's centroid, by 11
+/// degrees in the mean. What counts is the distance to the face's plane: A n.K n / |n.d|; a tenth of |d| is the least.
+double bisector_half(const Eigen::Matrix3d& k, const Vec3& d, const Vec3& area_vector) {
+  const double area = area_vector.norm();
+  if (!(area > 0.0)) return 0.0;
+  const Vec3 n = area_vector / area;
+  const double distance = std::max(std::abs(n.dot(d)), 0.1 * d.norm());
+  return distance > 0.0 ? area * n.dot(k * n) / distance : 0.0;
+}
+
+double in_series(double t1, double t2) { return 1.0 / (1.0 / t1 + 1.0 / t2); }
 
 class Connector {
  public:
-  Connector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
-            const HostMultipliers& multipliers, Assembly& assembly)
-      : grid_(grid),
-        host_(host),
-        locator_(locator),
-        multipliers_(multipliers),
+  Connector(const FlowInput& input, Assembly& assembly)
+      : grid_(input.grid),
+        host_(input.host),
+        locator_(input.locator),
+        multipliers_(input.multipliers),
         assembly_(assembly),
         mesh_(assembly.mesh),
-        radial_flow_(assembly) {
+        radial_flow_(assembly.tubes, input.wells) {
+    tensors_.resize(mesh_.cells.size());
+    tbb::parallel_for(std::size_t{0}, tensors_.size(),
+                      [&](std::size_t c) { tensors_[c] = rock_tensor(assembly_, host_, CellId(c)); });
     for (const PlacedTube& t : assembly.tubes) {
       const auto& m = t.tube->real;
       tube_end_.push_back(t.first_cell.value() + static_cast<std::int64_t>(m.segments) * m.sectors * m.rings);
@@ -63,29 +74,56 @@ class Connector {
   }
 
   void connect() {
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
-      if (mesh_.faces.cells[FaceId(f)][1].is_valid()) add(FaceId(f));
+    std::vector<Flux> fluxes(mesh_.faces.size());
+    tbb::parallel_for(std::size_t{0}, fluxes.size(), [&](std::size_t f) {
+      if (mesh_.faces.cells[FaceId(f)][1].is_valid()) fluxes[f] = flux_of(FaceId(f));
+    });
+    for (std::size_t f = 0; f < fluxes.size(); ++f)
+      if (mesh_.faces.cells[FaceId(f)][1].is_valid()) add(FaceId(f), fluxes[f]);
   }
 
  private:
-  void add(FaceId face) {
+  struct Flux {
+    double transmissibility = 0.0;  ///< m3, without multiplier
+    Vec3 linear_error = Vec3::Zero();
+  };
+  struct Sides {
+    HalfFace first;
+    HalfFace second;
+  };
+
+  [[nodiscard]] std::vector<Vec3> points_of(FaceId face) const {
     std::vector<Vec3> points;
     for (const VertexId v : mesh_.faces.loop(face)) points.push_back(mesh_.vertices[v]);
-    const PolygonGeometry g = polygon_geometry(points);
+    return points;
+  }
+
+  [[nodiscard]] Sides sides_of(FaceId face, const PolygonGeometry& g) const {
     const FaceInfo& info = assembly_.face_info[face];
     const auto [a, b] = mesh_.faces.cells[face];
+    return {{a, g.centroid, g.area_vector, info, {a, b}}, {b, g.centroid, -g.area_vector, info, {a, b}}};
+  }
+
+  [[nodiscard]] Flux flux_of(FaceId face) const {
+    const std::vector<Vec3> points = points_of(face);
+    const PolygonGeometry g = polygon_geometry(points);
+    const auto [first, second] = sides_of(face, g);
+    const double t = transmissibility(first, second, points, g);
+    return {t, linear_flux_error(first, second, t)};
+  }
+
+  void add(FaceId face, const Flux& flux) {
+    const std::vector<Vec3> points = points_of(face);
+    const PolygonGeometry g = polygon_geometry(points);
+    const auto [first, second] = sides_of(face, g);
+    const FaceInfo& info = first.info;
+    const auto [a, b] = first.cells;
     const bool is_swapped = b < a;
-    const HalfFace first{a, g.centroid, g.area_vector, info, {a, b}};
-    const HalfFace second{b, g.centroid, -g.area_vector, info, {a, b}};
-    const bool is_transition =
-        mesh_.cells.kind[a] == CellKind::transition && mesh_.cells.kind[b] == CellKind::transition;
-    const double factor = is_transition ? radial_flow_.factor(a, b, points) : 1.0;
-    const double t = transmissibility(first, second) * factor;
     const double multiplier = multipliers_.exist() ? multiplier_of(first, second) : 1.0;
     Connections& c = mesh_.connections;
     c.cells.push_back(is_swapped ? std::array{b, a} : std::array{a, b});
     c.face.push_back(face);
-    c.transmissibility.push_back(multiplier * t);
+    c.transmissibility.push_back(multiplier * flux.transmissibility);
     c.area.push_back(g.area);
     const Vec3 normal = g.area > 0.0 ? Vec3(g.area_vector / g.area) : Vec3::Zero();
     c.normal.push_back(is_swapped ? Vec3(-normal) : normal);
@@ -99,17 +137,61 @@ class Connector {
                      : info.is_fault != 0 ? ConnectionKind::fault
                                           : ConnectionKind::face);
     c.multiplier.push_back(multiplier);
+    c.linear_flux_error.push_back(flux.linear_error);
+  }
+
+  /// |T (p_i - p_j) - K grad p.n A| / (|K n| A) for slopes of 1 along x, y, depth. K is the mean of the two cells',
+  /// times what makes its part along n that of both in series: a jump of permeability is no error.
+  [[nodiscard]] Vec3 linear_flux_error(const HalfFace& first, const HalfFace& second, double t) const {
+    const double area = first.area_vector.norm();
+    if (!(area > 0.0)) return Vec3::Zero();
+    const Eigen::Matrix3d& k1 = tensors_[first.cell.index()];
+    const Eigen::Matrix3d& k2 = tensors_[second.cell.index()];
+    const Vec3 n = first.area_vector / area;
+    const Vec3 both = 0.5 * (k1 + k2) * n;
+    const double d1 = std::abs(n.dot(first.centroid - mesh_.cells.center[first.cell]));
+    const double d2 = std::abs(n.dot(second.centroid - mesh_.cells.center[second.cell]));
+    const double resistance = d1 / n.dot(k1 * n) + d2 / n.dot(k2 * n);
+    if (!(n.dot(both) > 0.0) || !std::isfinite(resistance) || !(resistance > 0.0)) return Vec3::Zero();
+    const Vec3 flux = (d1 + d2) / resistance / n.dot(both) * area * both;
+    const Vec3 line = mesh_.cells.center[second.cell] - mesh_.cells.center[first.cell];
+    return (t * line - flux).cwiseAbs() / flux.norm();
   }
 
   /// Without multiplier.
-  [[nodiscard]] double transmissibility(const HalfFace& first, const HalfFace& second) const {
-    if (first.info.host_face.is_valid()) {
-      const auto& known = host_.faces.transmissibility;
-      return known.empty() ? 0.0 : known[first.info.host_face];
-    }
+  [[nodiscard]] double transmissibility(const HalfFace& first, const HalfFace& second, std::span<const Vec3> points,
+                                        const PolygonGeometry& geometry) const {
+    const bool is_of_host = first.info.host_face.is_valid();
+    const auto& known = host_.faces.transmissibility;
+    if (is_of_host && known.empty()) return 0.0;
+    if (is_of_host && is_untouched(first.cell) && is_untouched(second.cell)) return known[first.info.host_face];
     const double t1 = half(first);
     const double t2 = half(second);
-    return t1 > 0.0 && t2 > 0.0 ? 1.0 / (1.0 / t1 + 1.0 / t2) : 0.0;
+    if (!(t1 > 0.0) || !(t2 > 0.0)) return 0.0;
+    const double linear = is_of_host ? known[first.info.host_face] : in_series(t1, t2);
+    const FaceRole role = first.info.role;
+    const bool is_inside = role == FaceRole::host || role == FaceRole::general;
+    const bool is_whole = first.info.is_fault == 0 && first.info.is_pinch == 0;
+    return linear * (is_inside && is_whole ? near_well_factor(first, second, {t1, t2}, points, geometry) : 1.0);
+  }
+
+  [[nodiscard]] bool is_untouched(CellId cell) const { return mesh_.cells.kind[cell] == CellKind::host; }
+
+  /// Of the flow's form near wells: the same on both sides, from the linear transmissibility in rock of one
+  /// permeability.
+  [[nodiscard]] double near_well_factor(const HalfFace& first, const HalfFace& second, const std::array<double, 2>& t,
+                                        std::span<const Vec3> points, const PolygonGeometry& geometry) const {
+    if (assembly_.tubes.empty()) return 1.0;
+    const Eigen::Matrix3d& k1 = tensors_[first.cell.index()];
+    const Eigen::Matrix3d& k2 = tensors_[second.cell.index()];
+    const Eigen::Matrix3d k = 0.5 * (k1 + k2);
+    const Vec3& a = geometry.area_vector;
+    const std::array centers{mesh_.cells.center[first.cell], mesh_.cells.center[second.cell]};
+    const double oblique =
+        first.info.role == FaceRole::general ? permeability_cosine(k, a, centers[1] - centers[0]) : 1.0;
+    const double across = a.dot(k * a);
+    const double linear = oblique * in_series(t[0] * across / a.dot(k1 * a), t[1] * across / a.dot(k2 * a));
+    return oblique * radial_flow_.factor({centers, points, geometry, k, linear});
   }
 
   /// A face of the corner-point grid has its own multiplier. Any other has those of the grid's faces that the line
@@ -148,43 +230,35 @@ class Connector {
   }
 
   [[nodiscard]] double k_angle(const HalfFace& h) const {
-    const Vec3 k = flow_permeability(mesh_.cells, h.cell);
-    return degrees_between(k.cwiseProduct(h.area_vector), h.centroid - mesh_.cells.center[h.cell]);
+    const Eigen::Matrix3d k = rock_tensor(assembly_, h.cell);
+    return degrees_between(k * h.area_vector, h.centroid - mesh_.cells.center[h.cell]);
   }
 
   [[nodiscard]] double half(const HalfFace& h) const {
-    const Vec3 k = flow_permeability(mesh_.cells, h.cell);
+    const Eigen::Matrix3d& k = tensors_[h.cell.index()];
     const Vec3 d = h.centroid - mesh_.cells.center[h.cell];
     switch (mesh_.cells.kind[h.cell]) {
-      case CellKind::host: return host_half(h);
+      case CellKind::host:
+      case CellKind::refined: return host_half(h);
       case CellKind::radial: return radial_half(h, k, d);
-      case CellKind::refined:
       case CellKind::transition: break;
     }
-    return h.info.role == FaceRole::lateral ? beyond_tube_half(h, k, d) : linear_half(k, d, h.area_vector);
+    return h.info.role == FaceRole::lateral ? beyond_tube_half(h, k, d) : bisector_half(k, d, h.area_vector);
   }
 
   /// Between the outermost circle and a transition cell's site the flow is still radial: the linear half is 15 to 30 %
   /// too low there.
-  [[nodiscard]] double beyond_tube_half(const HalfFace& h, const Vec3& k, const Vec3& d) const {
+  [[nodiscard]] double beyond_tube_half(const HalfFace& h, const Eigen::Matrix3d& k, const Vec3& d) const {
     const auto [a, b] = h.cells;
     const CellId radial = a == h.cell ? b : a;
-    const RadialMesh& m = tube_of(radial).tube->real;
     const RadialIndex at = mesh_.cells.radial_index[radial];
-    const Vec3 n = h.area_vector.normalized();
-    const double radius = circle_radius(*tube_of(radial).tube, at, m.rings);
-    const double theta = 2.0 * std::numbers::pi / m.sectors;
-    // The site stands off the chord by its distance along the normal. Very near the chord's middle it is inside the
-    // circle that the outermost ring's half ends at: half the linear drop is kept as the least.
-    const double distance = std::abs(n.dot(d));
-    const double drop =
-        std::max(std::log((radius * std::cos(0.5 * theta) + distance) / radius), 0.5 * distance / radius);
-    return drop > 0.0 ? n.dot(k.cwiseProduct(n)) * length_along_well(m, at, m.rings) * theta / drop : 0.0;
+    return TubeSector(*tube_of(radial).tube, at.segment, at.sector, k)
+        .half_beyond(std::abs(h.area_vector.normalized().dot(d)));
   }
 
   /// Beside a transition cell; host cells see host faces only.
   [[nodiscard]] double host_half(const HalfFace& h) const {
-    return host_half_transmissibility(grid_, host_, mesh_.cells.source_cell[h.cell], h.info.axis, h.area_vector);
+    return host_half_transmissibility(grid_, host_, assembly_.host_cell[h.cell.index()], h.info.axis, h.area_vector);
   }
 
   [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {
@@ -193,44 +267,20 @@ class Connector {
     return assembly_.tubes[t];
   }
 
-  /// Radius of a circle; in a layered tube it is a circle in plan on a horizon that may dip.
-  static double circle_radius(const Tube& tube, const RadialIndex& at, int circle) {
-    const Vec3 d =
-        tube.real.point(at.segment, circle, at.sector) - tube.real.axis[static_cast<std::size_t>(at.segment)];
-    return tube.layered ? std::hypot(d.x(), d.y()) : d.norm();
-  }
-
-  /// Mean distance of the two ends of a sector's face on a circle, m.
-  static double length_along_well(const RadialMesh& m, const RadialIndex& at, int circle) {
-    const auto edge = [&](int sector) {
-      return (m.point(at.segment + 1, circle, sector) - m.point(at.segment, circle, sector)).norm();
-    };
-    return 0.5 * (edge(at.sector) + edge(at.sector + 1));
-  }
-
-  [[nodiscard]] double radial_half(const HalfFace& h, const Vec3& k, const Vec3& d) const {
-    const RadialMesh& m = tube_of(h.cell).tube->real;
+  [[nodiscard]] double radial_half(const HalfFace& h, const Eigen::Matrix3d& k, const Vec3& d) const {
+    const Tube& tube = *tube_of(h.cell).tube;
     const RadialIndex at = mesh_.cells.radial_index[h.cell];
-    const Vec3 n = h.area_vector.normalized();
-    const double along_normal = n.dot(k.cwiseProduct(n));
-    const double inner = circle_radius(*tube_of(h.cell).tube, at, at.ring);
-    const double outer = circle_radius(*tube_of(h.cell).tube, at, at.ring + 1);
-    const double theta = 2.0 * std::numbers::pi / m.sectors;
     switch (h.info.role) {
       case FaceRole::ring:
-      case FaceRole::lateral: {
-        const double r_face = h.info.circle == at.ring ? inner : outer;
-        return along_normal * length_along_well(m, at, h.info.circle) * theta /
-               std::abs(std::log(r_face / mean_pressure_radius(inner, outer)));
-      }
+      case FaceRole::lateral: return TubeSector(tube, at.segment, at.sector, k).half_to_circle(at.ring, h.info.circle);
       case FaceRole::sector: {
-        // Flow around the axis: a length r theta / 2 for each radius, L dr wide.
-        const double length = h.area_vector.norm() / (outer - inner);
-        return along_normal * length * std::log(outer / inner) / (0.5 * theta);
+        const CellId other = h.cells[0] == h.cell ? h.cells[1] : h.cells[0];
+        const bool is_second = mesh_.cells.radial_index[other].sector == (at.sector + 1) % tube.real.sectors;
+        return TubeSector(tube, at.segment, at.sector, k).half_to_side(at.ring, is_second ? 1 : 0);
       }
       case FaceRole::axial: {
-        const double distance = std::abs(n.dot(d));
-        return distance > 0.0 ? along_normal * h.area_vector.norm() / distance : 0.0;
+        const double distance = std::abs(h.area_vector.normalized().dot(d));
+        return distance > 0.0 ? h.area_vector.dot(k * h.area_vector) / h.area_vector.norm() / distance : 0.0;
       }
       case FaceRole::host:
       case FaceRole::general: break;
@@ -245,59 +295,12 @@ class Connector {
   Assembly& assembly_;
   Mesh& mesh_;
   RadialFlow radial_flow_;
-  std::vector<std::int64_t> tube_end_;  ///< one past the last cell of each tube
+  std::vector<Eigen::Matrix3d> tensors_;  ///< of all cells, along their own axes
+  std::vector<std::int64_t> tube_end_;    ///< one past the last cell of each tube
 };
 
 }  // namespace
 
-double mean_pressure_radius(double inner, double outer) {
-  const double a = inner * inner;
-  const double b = outer * outer;
-  return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
-}
-
-void connect_cells(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
-                   const HostMultipliers& multipliers, Assembly& assembly) {
-  Connector(grid, host, locator, multipliers, assembly).connect();
-}
-
-double open_length(const Well& well, double from, double to) {
-  // Without intervals the whole path is open: a layered tube goes on beyond its ends.
-  if (well.open.empty())
-    return std::max(0.0, std::min(to, well.trajectory.measured_depth.back()) -
-                             std::max(from, well.trajectory.measured_depth.front()));
-  double length = 0.0;
-  for (const MeasuredDepthRange& o : well.open) length += std::max(0.0, std::min(to, o.to) - std::max(from, o.from));
-  return std::min(length, to - from);
-}
-
-std::vector<WellConnection> connect_tube(const Mesh& mesh, const PlacedTube& placed, const Well& well) {
-  const RadialMesh& m = placed.tube->real;
-  std::vector<WellConnection> connections;
-  for (int k = 0; k < m.segments; ++k) {
-    const auto station = static_cast<std::size_t>(k);
-    const double md0 = std::min(m.measured_depth[station], m.measured_depth[station + 1]);
-    const double md1 = std::max(m.measured_depth[station], m.measured_depth[station + 1]);
-    const double part = md1 > md0 ? open_length(well, md0, md1) / (md1 - md0) : 0.0;
-    // A millionth of a segment is what rounding leaves at the ends of intervals.
-    if (part < 1e-6) continue;
-    for (int s = 0; s < m.sectors; ++s) {
-      const CellId cell = placed.cell(k, s, 0);
-      const double inner = (m.point(k, 0, s) - m.axis[station]).norm();
-      const double outer = (m.point(k, 1, s) - m.axis[station]).norm();
-      const Vec3 middle =
-          0.25 * (m.point(k, 0, s) + m.point(k, 0, s + 1) + m.point(k + 1, 0, s) + m.point(k + 1, 0, s + 1));
-      const Vec3 n = (middle - 0.5 * (m.axis[station] + m.axis[station + 1])).normalized();
-      const double length = 0.5 * ((m.point(k + 1, 0, s) - m.point(k, 0, s)).norm() +
-                                   (m.point(k + 1, 0, s + 1) - m.point(k, 0, s + 1)).norm());
-      const double permeability = n.dot(flow_permeability(mesh.cells, cell).cwiseProduct(n));
-      const double theta = 2.0 * std::numbers::pi / m.sectors;
-      const double resistance = std::log(mean_pressure_radius(inner, outer) / inner) + well.skin;
-      if (!(permeability > 0.0) || !(resistance > 0.0)) continue;
-      connections.push_back({cell, permeability * part * length * theta / resistance, {md0, md1}});
-    }
-  }
-  return connections;
-}
+void connect_cells(const FlowInput& input, Assembly& assembly) { Connector(input, assembly).connect(); }
 
 }  // namespace wellknit

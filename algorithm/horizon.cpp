@@ -41,14 +41,12 @@ std::optional<std::array<double, 2>> plan_place(const std::array<Vec3, 4>& c, do
 }  // namespace
 
 std::array<Vec3, 4> Horizon::patch(std::array<std::int64_t, 2> column) const {
-  const std::int64_t nz = grid_.dimensions[2];
-  const bool is_base = level_ == nz;
-  const std::array<std::int64_t, 3> cell{column[0], column[1], is_base ? nz - 1 : level_};
+  const std::int64_t layers = grid_.dimensions()[2];
+  const bool is_base = level_ == layers;
   std::array<Vec3, 4> out;
-  for (int dj = 0; dj < 2; ++dj)
-    for (int di = 0; di < 2; ++di)
-      out[static_cast<std::size_t>(di + 2 * dj)] = grid_.pillar_point(
-          column[0] + di, column[1] + dj, grid_.zcorn[grid_.zcorn_index(cell, di, dj, is_base ? 1 : 0)]);
+  for (int c = 0; c < 4; ++c)
+    out[static_cast<std::size_t>(c)] =
+        grid_.corner({column[0], column[1], is_base ? layers - 1 : level_}, is_base ? c + 4 : c);
   return out;
 }
 
@@ -71,7 +69,7 @@ std::optional<HorizonPoint> Horizon::at(double x, double y, std::array<std::int6
       return HorizonPoint{column, u, v, Vec3(x, y, p.z())};
     }
     for (std::size_t a = 0; a < 2; ++a)
-      if (next[a] < 0 || next[a] >= grid_.dimensions[a]) return std::nullopt;
+      if (next[a] < 0 || next[a] >= grid_.dimensions()[a]) return std::nullopt;
     column = next;
   }
   return std::nullopt;

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "model/corner_point_grid.h"
+#include "algorithm/near_well_grid.h"
 
 namespace wellknit {
 
@@ -20,10 +20,10 @@ struct HorizonPoint {
   Vec3 point = Vec3::Zero();
 };
 
-/// Horizon `level` of 0 … nz is the top of layer `level`, and the base of the last layer for nz.
+/// Horizon `level` of 0 … nK is the top of the grid's layer `level`, and the base of the last one for nK.
 class Horizon {
  public:
-  Horizon(const CornerPointGrid& grid, std::int64_t level) : grid_(grid), level_(level) {}
+  Horizon(const NearWellGrid& grid, std::int64_t level) : grid_(grid), level_(level) {}
 
   /// The corners of the patch of a column: (di, dj) at di + 2 dj.
   [[nodiscard]] std::array<Vec3, 4> patch(std::array<std::int64_t, 2> column) const;
@@ -32,7 +32,7 @@ class Horizon {
   [[nodiscard]] std::optional<HorizonPoint> at(double x, double y, std::array<std::int64_t, 2> start) const;
 
  private:
-  const CornerPointGrid& grid_;
+  const NearWellGrid& grid_;
   std::int64_t level_;
 };
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "model/errors.h"
 
 namespace wellknit {
 
@@ -23,7 +26,26 @@ double transmissibility(const FaceCell& from, const FaceCell& to, Axis axis, con
   return t1 > 0.0 && t2 > 0.0 ? t1 / (t1 + t2) * t2 : 0.0;
 }
 
+template <class T>
+void append(LargeArray<T>& all, const LargeArray<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 }  // namespace
+
+void append_faces(HostFaces& all, const HostFaces& more) {
+  if (all.size() + more.size() > static_cast<std::size_t>(max_ids))
+    throw InvalidInput("the grid has too many parts of faces to be numbered; check ZCORN");
+  const auto shift = static_cast<std::int64_t>(all.vertices.size());
+  std::transform(more.vertex_start.begin() + 1, more.vertex_start.end(), std::back_inserter(all.vertex_start),
+                 [&](std::int64_t start) { return start + shift; });
+  append(all.vertices, more.vertices);
+  append(all.cells.raw(), more.cells.raw());
+  append(all.axis.raw(), more.axis.raw());
+  append(all.is_fault.raw(), more.is_fault.raw());
+  append(all.is_pinch.raw(), more.is_pinch.raw());
+  append(all.transmissibility.raw(), more.transmissibility.raw());
+}
 
 /// Newell's sum: the area vector of a closed loop does not depend on how it is cut into triangles.
 Vec3 HostFaceWriter::loop_area() const {

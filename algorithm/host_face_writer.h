@@ -12,7 +12,7 @@
 
 namespace wellknit {
 
-/// What a source cell is to the faces.
+/// What a cell is to the faces: one that exists, an inactive one, or nothing, as an active one without a volume.
 enum class HostCellState : std::uint8_t { none = 0, exists = 1, inactive = 2 };
 
 /// A cell beside a face.
@@ -34,6 +34,9 @@ struct HostColumn {
             conductance == nullptr ? nullptr : conductance + place};
   }
 };
+
+/// Throws InvalidInput when the faces are too many to be numbered.
+void append_faces(HostFaces& all, const HostFaces& more);
 
 /// Closes loops that were pushed: turns them, orders the two cells, and fills the other arrays.
 class HostFaceWriter {

@@ -182,7 +182,11 @@ void cut_strip(const Work& work, const Strip& strip, StripOverlay& overlay, Stri
         fmt::format("the layers on both sides of the fault at pillar ({}, {}) cross in {} points; check ZCORN there",
                     strip.pillar_p[0] + 1, strip.pillar_p[1] + 1, overlay.crossing_count()));
   out.first_crossing.push_back(first);
-  overlay.add_crossings(work.grid, strip, work.mesh.vertices, out);
+  const auto pillars = [&](double depth) {
+    return std::array{work.grid.pillar_point(strip.pillar_p[0], strip.pillar_p[1], depth),
+                      work.grid.pillar_point(strip.pillar_q[0], strip.pillar_q[1], depth)};
+  };
+  overlay.add_crossings(pillars, strip, work.mesh.vertices, out);
 }
 
 /// Gives the crossings of all rows their ids, after the pillars' nodes.
@@ -361,25 +365,6 @@ void make_faces(const Work& work, std::int64_t begin, std::int64_t end, FacePiec
   }
 }
 
-template <class T>
-void append(LargeArray<T>& all, const LargeArray<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-void append(HostFaces& all, const HostFaces& more) {
-  if (all.size() + more.size() > static_cast<std::size_t>(max_ids))
-    throw InvalidInput("the grid has too many parts of faces to be numbered; check ZCORN");
-  const auto shift = static_cast<std::int64_t>(all.vertices.size());
-  std::transform(more.vertex_start.begin() + 1, more.vertex_start.end(), std::back_inserter(all.vertex_start),
-                 [&](std::int64_t start) { return start + shift; });
-  append(all.vertices, more.vertices);
-  append(all.cells.raw(), more.cells.raw());
-  append(all.axis.raw(), more.axis.raw());
-  append(all.is_fault.raw(), more.is_fault.raw());
-  append(all.is_pinch.raw(), more.is_pinch.raw());
-  append(all.transmissibility.raw(), more.transmissibility.raw());
-}
-
 /// Room for the faces of a grid without faults and a few more, so that arrays seldom grow. What is not used takes no
 /// memory.
 void reserve(const Work& work, HostFaces& faces) {
@@ -402,13 +387,16 @@ void add_faces(Work& work) {
   run_in_order<FacePiece>(
       work.ny() + 1, work.rows_in_a_piece(),
       [&](std::int64_t begin, std::int64_t end, FacePiece& piece) { make_faces(work, begin, end, piece); },
-      [&](std::int64_t /*begin*/, std::int64_t /*end*/, const FacePiece& piece) { append(faces, piece.faces); });
+      [&](std::int64_t /*begin*/, std::int64_t /*end*/, const FacePiece& piece) { append_faces(faces, piece.faces); });
 }
 
 }  // namespace
 
 VertexId HostMesh::corner(HostCellId cell, int di, int dj, int dk) const {
   const auto [nx, ny, nz] = corners.dimensions;
+  if (cell.value() >= nx * ny * nz)
+    return refined
+        .corners[static_cast<std::size_t>(cell.value() - nx * ny * nz)][static_cast<std::size_t>(di + 2 * dj + 4 * dk)];
   const std::int64_t column = cell.value() % (nx * ny);
   const std::int64_t place = corners.layer(cell.value() / (nx * ny));
   const int corner = di + 2 * dj;

@@ -36,6 +36,13 @@ struct HostCorners {
   [[nodiscard]] std::size_t pillar(std::int64_t i, std::int64_t j, int corner) const {
     return static_cast<std::size_t>(i + (corner & 1) + (dimensions[0] + 1) * (j + (corner >> 1)));
   }
+  /// A pillar's uppermost node, and the vertex after its deepest.
+  [[nodiscard]] std::array<VertexId, 2> nodes_on(std::size_t pillar) const {
+    if (pillar + 1 < first.size()) return {first[pillar], first[pillar + 1]};
+    // The last pillar is that of one column alone.
+    const std::int32_t last = on_pillar(dimensions[0] * dimensions[1] - 1, 3)[levels() - 1];
+    return {first[pillar], VertexId(first[pillar].value() + last + 1)};
+  }
   /// Ranks of a column's levels on one of its pillars, rising; 2 nz of them.
   [[nodiscard]] const std::int32_t* on_pillar(std::int64_t column, int corner) const {
     return rank.data() + levels() * (corner + 4 * column);
@@ -64,17 +71,52 @@ struct HostFaces {
   }
 };
 
+/// Where a part of a source cell lies in it: lowest and highest (u, v, w) of its trilinear map (cell_locator.h).
+struct PieceBox {
+  std::array<double, 3> low{};
+  std::array<double, 3> high{};
+};
+
+/// Cells that a refinement made (host_refinement.h). Their ids follow those of the source cells.
+struct RefinedCells {
+  std::vector<HostCellId> parent;  ///< source cell with the largest part in it
+  /// Corner (di, dj, dk) at di + 2 dj + 4 dk, dk 0 the upper one, whichever way the source numbers its layers.
+  std::vector<std::array<VertexId, 8>> corners;
+  std::vector<std::int64_t> piece_start{0};  ///< size()+1 offsets: parts of source cells in each refined cell
+  std::vector<HostCellId> piece_source;
+  std::vector<double> piece_fraction;    ///< of the source cell's volume; those of one source cell add up to 1
+  std::vector<PieceBox> piece_box;       ///< place in the source cell
+  std::vector<std::uint8_t> is_refined;  ///< per source cell: 1 replaced by refined ones; empty: none is
+
+  [[nodiscard]] std::size_t size() const { return parent.size(); }
+};
+
 struct HostMesh {
   IdVector<VertexId, Vec3> vertices;  ///< pillar by pillar, then crossings
   HostCorners corners;                ///< of all source cells, inactive ones too
   HostFaces faces;
-  IdVector<HostCellId, double> volume;        ///< m3, positive: eight corners with bilinear faces; all source cells
+  IdVector<HostCellId, double> volume;        ///< m3, positive: eight corners with bilinear faces; all cells
   IdVector<HostCellId, double> pore_volume;   ///< m3; see source_pore_volumes()
   IdVector<HostCellId, std::uint8_t> exists;  ///< 1: active, of positive volume and not below MINPV: a cell of the mesh
   bool left_handed = false;                   ///< i, j, k make a left-handed triple in (x, y, depth)
+  RefinedCells refined;                       ///< empty before a refinement
   std::vector<std::string> notes;             ///< what was mended or looks wrong, one sentence each
 
-  /// Corner (di, dj, dk), each 0 or 1, of any source cell.
+  /// The source cell that a cell is, or mainly lies in.
+  [[nodiscard]] HostCellId source_of(HostCellId cell) const {
+    const std::int64_t sources = corners.dimensions[0] * corners.dimensions[1] * corners.dimensions[2];
+    return cell.value() < sources ? cell : refined.parent[static_cast<std::size_t>(cell.value() - sources)];
+  }
+  [[nodiscard]] std::size_t source_count() const { return volume.size() - refined.size(); }
+  /// A cell of the mesh as far as the host goes: it exists and no refined ones took its place.
+  [[nodiscard]] bool is_cell(HostCellId cell) const {
+    return exists[cell] != 0 && !(cell.index() < source_count() && is_refined(cell));
+  }
+  [[nodiscard]] bool is_refined(HostCellId source) const {
+    return !refined.is_refined.empty() && refined.is_refined[source.index()] != 0;
+  }
+
+  /// Corner (di, dj, dk), each 0 or 1, of any cell.
   [[nodiscard]] VertexId corner(HostCellId cell, int di, int dj, int dk) const;
   /// All eight, (di, dj, dk) at di + 2 dj + 4 dk.
   [[nodiscard]] std::array<VertexId, 8> corners_of(HostCellId cell) const;

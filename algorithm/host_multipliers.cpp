@@ -116,7 +116,7 @@ double HostMultipliers::of_regions(HostCellId one, HostCellId other, std::option
 }
 
 double HostMultipliers::across(HostCellId one, HostCellId other, Axis axis) const {
-  if (!exist_) return 1.0;
+  if (!exist_ || one == other) return 1.0;
   const auto a = static_cast<std::size_t>(axis);
   const bool is_low = grid_.ijk(one)[a] <= grid_.ijk(other)[a];
   const HostCellId low = is_low ? one : other;

@@ -24,7 +24,8 @@ class HostMultipliers {
   [[nodiscard]] bool exist() const { return exist_; }
 
   /// Of the connection between two cells across a face normal to `axis`: the multiplier of the cell with the smaller
-  /// index on its high side, times that of the other on its low side, times that of their regions.
+  /// index on its high side, times that of the other on its low side, times that of their regions. 1 between parts of
+  /// one cell.
   [[nodiscard]] double across(HostCellId one, HostCellId other, Axis axis) const;
 
   /// The one of the cell's own face: MULTX … and MULTFLT.

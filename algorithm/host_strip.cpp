@@ -25,7 +25,8 @@ constexpr std::int32_t below_all = std::numeric_limits<std::int32_t>::max();
 bool Strip::is_matched() const {
   const auto& [a, b] = sides;
   return a.p.empty() || b.p.empty() ||
-         (std::equal(a.p.begin(), a.p.end(), b.p.begin()) && std::equal(a.q.begin(), a.q.end(), b.q.begin()));
+         (std::equal(a.p.begin(), a.p.end(), b.p.begin(), b.p.end()) &&
+          std::equal(a.q.begin(), a.q.end(), b.q.begin(), b.q.end()));
 }
 
 std::span<const VertexId> StripCuts::cuts_of(std::int64_t strip, int side, std::int32_t p, std::int32_t q) const {
@@ -115,7 +116,7 @@ std::int64_t StripOverlay::crossing(std::size_t line0, std::size_t line1) const 
   return first_crossing_[line0] + static_cast<std::int64_t>(line1 - crossed_[line0].first);
 }
 
-void StripOverlay::add_crossings(const CornerPointGrid& grid, const Strip& strip, const IdVector<VertexId, Vec3>& nodes,
+void StripOverlay::add_crossings(const PillarPair& pillars, const Strip& strip, const IdVector<VertexId, Vec3>& nodes,
                                  StripCuts& out) const {
   const auto depth_p = [&](std::int32_t rank) { return nodes[strip.on_p(rank)][2]; };
   const auto depth_q = [&](std::int32_t rank) { return nodes[strip.on_q(rank)][2]; };
@@ -127,8 +128,8 @@ void StripOverlay::add_crossings(const CornerPointGrid& grid, const Strip& strip
       const double at_q = std::abs(q0 - depth_q(lines_[1].q[other]));
       const double s = at_p / (at_p + at_q);
       const double z = (1.0 - s) * p0 + s * q0;
-      out.crossings.emplace_back((1.0 - s) * grid.pillar_point(strip.pillar_p[0], strip.pillar_p[1], z) +
-                                 s * grid.pillar_point(strip.pillar_q[0], strip.pillar_q[1], z));
+      const auto [on_p, on_q] = pillars(z);
+      out.crossings.emplace_back((1.0 - s) * on_p + s * on_q);
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {

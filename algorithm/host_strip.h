@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace wellknit {
 
 /// The side of one column in a strip. The other side of the grid's boundary has no levels.
 struct StripSide {
-  std::span<const std::int32_t> p;  ///< ranks of its levels on pillar p, rising; 2 nz or none
+  std::span<const std::int32_t> p;  ///< ranks of its levels on pillar p, rising; two for each cell, or none
   std::span<const std::int32_t> q;
   HostColumn column;  ///< its cells, for the faces
 
@@ -67,13 +68,16 @@ struct StripCuts {
   void number_from(VertexId first);
 };
 
+/// The points of a strip's pillars p and q at a depth.
+using PillarPair = std::function<std::array<Vec3, 2>(double depth)>;
+
 /// The lines of two columns laid over each other; for strips that are not matched.
 class StripOverlay {
  public:
   /// Reads the strip's lines and finds which of them cross. `first_crossing` becomes the id of the first.
   void read(const Strip& strip, std::int64_t first_crossing);
   [[nodiscard]] std::int64_t crossing_count() const { return crossing_count_; }
-  void add_crossings(const CornerPointGrid& grid, const Strip& strip, const IdVector<VertexId, Vec3>& nodes,
+  void add_crossings(const PillarPair& pillars, const Strip& strip, const IdVector<VertexId, Vec3>& nodes,
                      StripCuts& out) const;
   void add_faces(const Strip& strip, HostFaceWriter& writer) const;
 

@@ -22,6 +22,14 @@ std::array<Vec3, 8> corner_points(const HostMesh& mesh, HostCellId cell) {
   return points;
 }
 
+HostRock source_rock(const CornerPointGrid& grid, HostCellId cell) {
+  HostRock out;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!grid.permeability[a].empty()) out.permeability[a] = grid.permeability[a][cell.index()];
+  if (!grid.net_to_gross.empty()) out.net_to_gross = grid.net_to_gross[cell.index()];
+  return out;
+}
+
 Vec3 scaled(const Vec3& d, double permeability) {
   const double square = d.squaredNorm();
   return square > 0.0 ? Vec3(permeability / square * d) : Vec3::Zero();
@@ -38,6 +46,38 @@ Vec3 host_cell_center(const HostMesh& mesh, HostCellId cell) {
   return std::accumulate(corners.begin(), corners.end(), Vec3(Vec3::Zero())) / 8.0;
 }
 
+HostRock host_rock(const CornerPointGrid& grid, const HostMesh& mesh, HostCellId cell) {
+  if (cell.index() < mesh.source_count()) return source_rock(grid, cell);
+  const RefinedCells& refined = mesh.refined;
+  const std::size_t number = cell.index() - mesh.source_count();
+  const auto begin = static_cast<std::size_t>(refined.piece_start[number]);
+  const auto end = static_cast<std::size_t>(refined.piece_start[number + 1]);
+  if (end == begin + 1) return source_rock(grid, refined.piece_source[begin]);
+  HostRock out;
+  out.net_to_gross = 0.0;
+  double total = 0.0;
+  std::array<double, 3> gross{};
+  for (std::size_t p = begin; p < end; ++p) {
+    const HostCellId source = refined.piece_source[p];
+    if (mesh.exists[source] == 0) continue;
+    const double volume = refined.piece_fraction[p] * mesh.volume[source];
+    const HostRock rock = source_rock(grid, source);
+    total += volume;
+    out.net_to_gross += volume * rock.net_to_gross;
+    for (std::size_t a = 0; a < 2; ++a) {
+      out.permeability[a] += volume * rock.net_to_gross * rock.permeability[a];
+      gross[a] += volume * rock.permeability[a];
+    }
+    out.permeability[2] += volume / rock.permeability[2];  // infinite without permeability: none remains
+  }
+  if (!(total > 0.0)) return {};
+  for (std::size_t a = 0; a < 2; ++a)
+    out.permeability[a] = out.net_to_gross > 0.0 ? out.permeability[a] / out.net_to_gross : gross[a] / total;
+  out.permeability[2] = total / out.permeability[2];
+  out.net_to_gross /= total;
+  return out;
+}
+
 std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& x, const std::array<double, 3>& permeability) {
   // Edges along i, j, k; a mean of four is twice the way from the centre to a face's middle.
   const Vec3 i = (x[1] - x[0]) + (x[3] - x[2]) + (x[5] - x[4]) + (x[7] - x[6]);
@@ -48,11 +88,7 @@ std::array<Vec3, 3> host_conductances(const std::array<Vec3, 8>& x, const std::a
 
 double host_half_transmissibility(const CornerPointGrid& grid, const HostMesh& mesh, HostCellId cell, Axis axis,
                                   const Vec3& area_vector) {
-  std::array<double, 3> k{};
-  for (std::size_t a = 0; a < 3; ++a)
-    if (!grid.permeability[a].empty()) k[a] = grid.permeability[a][cell.index()];
-  if (axis != Axis::k && !grid.net_to_gross.empty())
-    k[static_cast<std::size_t>(axis)] *= grid.net_to_gross[cell.index()];
+  const auto k = host_rock(grid, mesh, cell).effective();
   return std::abs(area_vector.dot(host_conductances(corner_points(mesh, cell), k)[static_cast<std::size_t>(axis)]));
 }
 

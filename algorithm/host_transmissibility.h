@@ -15,6 +15,20 @@ Vec3 host_cell_center(const HostMesh& mesh, HostCellId cell);
 /// False: no transmissibility can be computed.
 bool has_permeability(const CornerPointGrid& grid);
 
+/// Rock of a host cell.
+struct HostRock {
+  std::array<double, 3> permeability{};  ///< of net rock along i, j, k, m2; 0 where not given
+  double net_to_gross = 1.0;
+  /// As the faces take it: net to gross along i and j.
+  [[nodiscard]] std::array<double, 3> effective() const {
+    return {permeability[0] * net_to_gross, permeability[1] * net_to_gross, permeability[2]};
+  }
+};
+
+/// Of a refined cell over several layers: of its existing parts, weighted with their volumes, the arithmetic mean along
+/// i and j, the harmonic one along k.
+HostRock host_rock(const CornerPointGrid& grid, const HostMesh& mesh, HostCellId cell);
+
 /// By axis: k d / d^2, m, with d from the cell's centre to the middle of its own whole face on the high side; its
 /// product with a part's area vector is the half-transmissibility through the part, on either side (the sign apart,
 /// since the centre is the middle of two opposite faces' middles). Corners as everywhere, di + 2 dj + 4 dk; exchanging

@@ -21,6 +21,8 @@
 #include <map>
 #include <numbers>
 
+#include "algorithm/host_transmissibility.h"
+#include "algorithm/refined_path.h"
 #include "model/errors.h"
 #include "model/units.h"
 
@@ -35,15 +37,31 @@ constexpr double default_diameter = metre_per_foot;
 struct WellCell {
   Vec3 size;          ///< m, net along k
   Vec3 permeability;  ///< m2; 0 where not given
+  bool is_refined = false;
 };
 
-WellCell well_cell(const CornerPointGrid& grid, HostCellId cell) {
-  WellCell out{well_cell_size(grid, cell), Vec3::Zero()};
-  if (!grid.net_to_gross.empty()) out.size[2] *= grid.net_to_gross[cell.index()];
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& values = grid.permeability[static_cast<std::size_t>(axis)];
-    if (!values.empty()) out.permeability[axis] = values[cell.index()];
-  }
+/// A source cell's as the grid gives them.
+std::array<Vec3, 8> corner_points(const CornerPointGrid& grid, const HostMesh& host, HostCellId cell) {
+  if (cell.index() < host.source_count()) return grid.corners(cell);
+  const auto corners = host.corners_of(cell);
+  std::array<Vec3, 8> points;
+  for (std::size_t n = 0; n < 8; ++n) points[n] = host.vertices[corners[n]];
+  return points;
+}
+
+Vec3 size_of(const std::array<Vec3, 8>& corners) {
+  std::array<Vec3, 3> between{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t c = 0; c < 8; ++c)
+    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] += (((c >> axis) & 1U) != 0 ? 0.25 : -0.25) * corners[c];
+  return {between[0].head<2>().norm(), between[1].head<2>().norm(), std::abs(between[2][2])};
+}
+
+WellCell well_cell(const CornerPointGrid& grid, const HostMesh& host, HostCellId cell) {
+  const HostRock rock = host_rock(grid, host, cell);
+  WellCell out{size_of(corner_points(grid, host, cell)),
+               Vec3(rock.permeability[0], rock.permeability[1], rock.permeability[2]), false};
+  out.size[2] *= rock.net_to_gross;
+  out.is_refined = cell.index() >= host.source_count();
   return out;
 }
 
@@ -56,12 +74,16 @@ struct Bore {
 };
 
 /// ln(r_o / r_w) + skin for a bore along `axis`.
-double resistance(const CornerPointGrid& grid, HostCellId id, const WellCell& cell, int axis, const Bore& bore) {
+double resistance(const CornerPointGrid& grid, HostCellId source, const WellCell& cell, int axis, const Bore& bore) {
   const auto [b, c] = across(axis);
-  const double radius = peaceman_radius(cell.permeability[b], cell.permeability[c], cell.size[b], cell.size[c]);
+  double radius = peaceman_radius(cell.permeability[b], cell.permeability[c], cell.size[b], cell.size[c]);
+  // A refinement for a tube near by may leave cells that the bore all but fills; their own resistance is then next to
+  // nothing beside that of their neighbours.
+  constexpr double least_ratio = 1.5;
+  if (cell.is_refined) radius = std::max(radius, least_ratio * bore.radius);
   const double value = std::log(radius / bore.radius) + bore.skin;
   if (value > 0.0) return value;
-  const auto [i, j, k] = grid.ijk(id);
+  const auto [i, j, k] = grid.ijk(source);
   throw InvalidInput(fmt::format(
       "the bore of radius {} m with skin {} is too wide for cell ({}, {}, {}), whose equivalent radius is {:.4g} m; "
       "use a smaller radius or a higher skin",
@@ -74,11 +96,11 @@ double permeability_across(const WellCell& cell, int axis) {
   return std::sqrt(cell.permeability[b] * cell.permeability[c]);
 }
 
-double index_along(const CornerPointGrid& grid, HostCellId id, const WellCell& cell, int axis, double length,
+double index_along(const CornerPointGrid& grid, HostCellId source, const WellCell& cell, int axis, double length,
                    const Bore& bore) {
   const double k = permeability_across(cell, axis);
   if (!(k > 0.0) || !(length > 0.0)) return 0.0;
-  return 2.0 * std::numbers::pi * k * length / resistance(grid, id, cell, axis, bore);
+  return 2.0 * std::numbers::pi * k * length / resistance(grid, source, cell, axis, bore);
 }
 
 /// Shares [from, to] of the part, each in [0, 1], that are open.
@@ -115,8 +137,8 @@ std::vector<CellSum> sum_by_cell(const CornerPointGrid& grid, const HostMesh& ho
   std::vector<CellSum> sums;
   std::map<HostCellId, std::size_t> place;
   for (const CellPart& part : parts) {
-    if (host.exists[part.cell] == 0) continue;
-    const auto corners = grid.corners(part.cell);
+    if (!host.is_cell(part.cell)) continue;
+    const auto corners = corner_points(grid, host, part.cell);
     const double span = part.measured_depth.to - part.measured_depth.from;
     for (const auto& [from, to] : open_shares(well, part.measured_depth)) {
       const MeasuredDepthRange range{part.measured_depth.from + from * span, part.measured_depth.from + to * span};
@@ -134,9 +156,9 @@ std::vector<CellSum> sum_by_cell(const CornerPointGrid& grid, const HostMesh& ho
 
 int axis_of(char direction) { return direction == 'X' ? 0 : direction == 'Y' ? 1 : 2; }
 
-double completion_index(const CornerPointGrid& grid, const DeckCompletion& completion) {
+double completion_index(const CornerPointGrid& grid, const HostMesh& host, const DeckCompletion& completion) {
   if (completion.connection_factor) return *completion.connection_factor;
-  const WellCell cell = well_cell(grid, completion.cell);
+  const WellCell cell = well_cell(grid, host, completion.cell);
   const int axis = axis_of(completion.direction);
   const double diameter = completion.diameter > 0.0 ? completion.diameter : default_diameter;
   const Bore bore{0.5 * diameter, completion.skin};
@@ -167,15 +189,71 @@ MeasuredDepthRange depths_in(const CornerPointGrid& grid, HostCellId cell, const
   return range;
 }
 
+/// Weights of the refined cells in a source cell for a completion: their lengths of the path, else those along the line
+/// through the cell's middle in the completion's direction.
+std::map<HostCellId, double> refined_weights(const CornerPointGrid& grid, const HostMesh& host,
+                                             const DeckCompletion& completion, const std::vector<CellPart>& parts) {
+  std::vector<CellPart> inside;
+  for (const CellPart& part : parts)
+    if (part.cell == completion.cell) inside.push_back(part);
+  std::map<HostCellId, double> weights;
+  for (const CellPart& part : split_at_refined(grid, host, inside).parts)
+    if (host.is_cell(part.cell)) weights[part.cell] += (part.exit - part.entry).norm();
+  if (!weights.empty()) return weights;
+  const auto along = static_cast<std::size_t>(axis_of(completion.direction));
+  const RefinedCells& refined = host.refined;
+  for (std::size_t c = 0; c < refined.size(); ++c) {
+    const HostCellId cell(c + host.source_count());
+    for (auto p = static_cast<std::size_t>(refined.piece_start[c]);
+         p < static_cast<std::size_t>(refined.piece_start[c + 1]); ++p) {
+      if (refined.piece_source[p] != completion.cell || !host.is_cell(cell)) continue;
+      const PieceBox& box = refined.piece_box[p];
+      bool is_at_middle = true;
+      for (std::size_t a = 0; a < 3; ++a)
+        is_at_middle = is_at_middle && (a == along || (box.low[a] <= 0.5 && box.high[a] > 0.5));
+      if (is_at_middle) weights[cell] += box.high[along] - box.low[along];
+    }
+  }
+  return weights;
+}
+
+/// A completion's connections: one, or those of the refined cells in its cell, which share its index.
+std::vector<HostWellConnection> connections_of(const CornerPointGrid& grid, const HostMesh& host, const Well& well,
+                                               const DeckCompletion& completion, double index,
+                                               const std::vector<CellPart>& parts) {
+  const MeasuredDepthRange depths = depths_in(grid, completion.cell, well, parts);
+  if (!host.is_refined(completion.cell)) return {{completion.cell, index, depths}};
+  const auto weights = refined_weights(grid, host, completion, parts);
+  double total = 0.0;
+  for (const auto& [cell, weight] : weights) total += weight;
+  std::vector<HostWellConnection> out;
+  for (const auto& [cell, weight] : weights)
+    if (weight > 0.0) out.push_back({cell, index * weight / total, depths});
+  return out;
+}
+
+/// A refined cell over several completed cells gets all they give it.
+std::vector<HostWellConnection> added_up(const std::vector<std::vector<HostWellConnection>>& lists) {
+  std::vector<HostWellConnection> out;
+  std::map<HostCellId, std::size_t> place;
+  for (const auto& list : lists)
+    for (const HostWellConnection& connection : list) {
+      const auto [found, is_new] = place.try_emplace(connection.cell, out.size());
+      if (is_new) {
+        out.push_back(connection);
+        continue;
+      }
+      HostWellConnection& sum = out[found->second];
+      sum.well_index += connection.well_index;
+      sum.measured_depth.from = std::min(sum.measured_depth.from, connection.measured_depth.from);
+      sum.measured_depth.to = std::max(sum.measured_depth.to, connection.measured_depth.to);
+    }
+  return out;
+}
+
 }  // namespace
 
-Vec3 well_cell_size(const CornerPointGrid& grid, HostCellId cell) {
-  const auto corners = grid.corners(cell);
-  std::array<Vec3, 3> between{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  for (std::size_t c = 0; c < 8; ++c)
-    for (std::size_t axis = 0; axis < 3; ++axis) between[axis] += (((c >> axis) & 1U) != 0 ? 0.25 : -0.25) * corners[c];
-  return {between[0].head<2>().norm(), between[1].head<2>().norm(), std::abs(between[2][2])};
-}
+Vec3 well_cell_size(const CornerPointGrid& grid, HostCellId cell) { return size_of(grid.corners(cell)); }
 
 double peaceman_radius(double k_b, double k_c, double d_b, double d_c) {
   const double ratio = std::sqrt(k_c / k_b);
@@ -187,10 +265,10 @@ std::vector<HostWellConnection> peaceman_indices(const CornerPointGrid& grid, co
   const Bore bore{well.radial.bore_radius, well.skin};
   std::vector<HostWellConnection> out;
   for (const CellSum& sum : sum_by_cell(grid, host, well, parts)) {
-    const WellCell cell = well_cell(grid, sum.cell);
+    const WellCell cell = well_cell(grid, host, sum.cell);
     Vec3 index;
     for (int axis = 0; axis < 3; ++axis)
-      index[axis] = index_along(grid, sum.cell, cell, axis, sum.share[axis] * cell.size[axis], bore);
+      index[axis] = index_along(grid, host.source_of(sum.cell), cell, axis, sum.share[axis] * cell.size[axis], bore);
     if (index.norm() > 0.0) out.push_back({sum.cell, index.norm(), sum.measured_depth});
   }
   return out;
@@ -198,20 +276,18 @@ std::vector<HostWellConnection> peaceman_indices(const CornerPointGrid& grid, co
 
 std::vector<HostWellConnection> completion_indices(const CornerPointGrid& grid, const HostMesh& host, const Well& well,
                                                    const std::vector<CellPart>& parts) {
-  std::vector<HostWellConnection> out;
+  std::vector<std::vector<HostWellConnection>> lists;
+  std::map<HostCellId, std::size_t> list_of;
   for (const DeckCompletion& completion : well.completions) {
     if (!completion.open || host.exists[completion.cell] == 0) continue;
-    const double index = completion_index(grid, completion);
+    const double index = completion_index(grid, host, completion);
     if (!(index > 0.0)) continue;
-    const HostWellConnection connection{completion.cell, index, depths_in(grid, completion.cell, well, parts)};
     // A later record of the same cell replaces the earlier one.
-    const auto same = std::find_if(out.begin(), out.end(), [&](const auto& c) { return c.cell == completion.cell; });
-    if (same == out.end())
-      out.push_back(connection);
-    else
-      *same = connection;
+    const auto [found, is_new] = list_of.try_emplace(completion.cell, lists.size());
+    if (is_new) lists.emplace_back();
+    lists[found->second] = connections_of(grid, host, well, completion, index, parts);
   }
-  return out;
+  return added_up(lists);
 }
 
 }  // namespace wellknit

@@ -29,12 +29,14 @@ double peaceman_radius(double k_b, double k_c, double d_b, double d_c);
 
 /// Projected indices of the existing cells along the well's open stretches, in the order of their first entry; bore
 /// radius, skin and open ranges are the well's. Cells without permeability across the path are left out. `parts`: of
-/// the well's trajectory. Throws InvalidInput where the bore is too wide, or the skin too low, for a cell.
+/// the well's trajectory, cut at refined cells (refined_path.h). Throws InvalidInput where the bore is too wide, or the
+/// skin too low, for a cell.
 std::vector<HostWellConnection> peaceman_indices(const CornerPointGrid& grid, const HostMesh& host, const Well& well,
                                                  const std::vector<CellPart>& parts);
 
 /// Indices of the existing cells of a deck's open completions, in the deck's order: the connection factor as given,
-/// else as a simulator computes it for the whole cell. Throws as above.
+/// else as a simulator computes it for the whole cell; refined cells share that of their source cell by the path's
+/// lengths in them. `parts` in source cells. Throws as above.
 std::vector<HostWellConnection> completion_indices(const CornerPointGrid& grid, const HostMesh& host, const Well& well,
                                                    const std::vector<CellPart>& parts);
 

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -27,14 +26,14 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// What a vertex of the triangulation is.
+/// What a point of the triangulation is.
 struct SiteCode {
   std::int32_t site = -1;   ///< inner: 0 …; outer: inner count + outer index; image: the inner site
   std::int32_t plane = -1;  ///< image in this plane; -1: none
 };
 
-using VertexBase =
-    CGAL::Triangulation_vertex_base_with_info_3<SiteCode, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel,
+                                                               CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
 using CellBase =
     CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Triangulation = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
@@ -45,6 +44,16 @@ constexpr double flat_ratio = 1e-8;
 /// Dual points of neighbours closer than this part of their distance to the sites are one vertex: rounding of the sites
 /// times the condition of ordinary tetrahedra.
 constexpr double merge_ratio = 1e-7;
+
+/// A tetrahedron, copied from the triangulation: what comes after it walks over these, four times smaller than CGAL's.
+struct Tetrahedron {
+  std::array<std::int32_t, 4> point{};     ///< numbers of its points
+  std::array<std::int32_t, 4> neighbor{};  ///< opposite to each; -1: infinite, or without an inner site
+
+  [[nodiscard]] int place_of(std::int32_t p) const {
+    return static_cast<int>(std::distance(point.begin(), std::find(point.begin(), point.end(), p)));
+  }
+};
 
 /// The dual of one tetrahedron.
 struct Dual {
@@ -79,8 +88,8 @@ class DiagramBuilder {
       : cavity_(cavity), sites_(sites), inner_count_(sites.inner.size()) {}
 
   PowerDiagram build() {
-    triangulate();
-    number_cells();
+    collect_points();
+    copy_triangulation();
     if (diagram_.failure.empty()) compute_duals();
     if (diagram_.failure.empty()) absorb_flat();
     if (diagram_.failure.empty()) group_duals();
@@ -89,95 +98,102 @@ class DiagramBuilder {
   }
 
  private:
-  using CellHandle = Triangulation::Cell_handle;
-
-  void triangulate() {
-    std::vector<std::pair<Kernel::Weighted_point_3, SiteCode>> points;
-    const auto add = [&](const Vec3& c, double weight, SiteCode code) {
-      points.emplace_back(Kernel::Weighted_point_3(Kernel::Point_3(c.x(), c.y(), c.z()), weight), code);
+  /// Inner sites, outer ones, then the images of the inner ones in each plane.
+  void collect_points() {
+    points_.reserve(inner_count_ * (1 + cavity_.planes.size()) + sites_.outer.size());
+    const auto add = [&](const Vec3& c, double weight) {
+      const auto number = static_cast<std::int32_t>(points_.size());
+      points_.emplace_back(Kernel::Weighted_point_3(Kernel::Point_3(c.x(), c.y(), c.z()), weight), number);
     };
-    for (std::size_t s = 0; s < inner_count_; ++s)
-      add(sites_.inner[s].center, sites_.inner[s].weight, {static_cast<std::int32_t>(s), -1});
-    for (std::size_t s = 0; s < sites_.outer.size(); ++s)
-      add(sites_.outer[s].center, sites_.outer[s].weight, {static_cast<std::int32_t>(inner_count_ + s), -1});
-    for (std::size_t p = 0; p < cavity_.planes.size(); ++p)
-      for (std::size_t s = 0; s < inner_count_; ++s) {
-        Vec3 image = sites_.inner[s].center;
-        double& x = image[cavity_.planes[p].axis];
-        x = 2.0 * cavity_.planes[p].coordinate - x;
-        add(image, sites_.inner[s].weight, {static_cast<std::int32_t>(s), static_cast<std::int32_t>(p)});
+    for (const Site& s : sites_.inner) add(s.center, s.weight);
+    for (const Site& s : sites_.outer) add(s.center, s.weight);
+    for (const MirrorPlane& plane : cavity_.planes)
+      for (const Site& s : sites_.inner) {
+        Vec3 image = s.center;
+        image[plane.axis] = 2.0 * plane.coordinate - image[plane.axis];
+        add(image, s.weight);
       }
-    triangulation_.insert(points.begin(), points.end());
   }
 
-  void number_cells() {
+  void copy_triangulation() {
+    Triangulation triangulation(points_.begin(), points_.end());
     std::vector<std::uint8_t> is_there(inner_count_, 0);
-    for (auto v = triangulation_.finite_vertices_begin(); v != triangulation_.finite_vertices_end(); ++v)
-      if (v->info().plane < 0 && is_inner(v->info())) is_there[static_cast<std::size_t>(v->info().site)] = 1;
+    for (auto v = triangulation.finite_vertices_begin(); v != triangulation.finite_vertices_end(); ++v)
+      if (is_inner(v->info())) is_there[static_cast<std::size_t>(v->info())] = 1;
     const auto hidden = std::count(is_there.begin(), is_there.end(), 0);
     if (hidden > 0) diagram_.failure = std::to_string(hidden) + " sites have no cell";
-    for (auto c = triangulation_.all_cells_begin(); c != triangulation_.all_cells_end(); ++c) c->info() = -1;
-    for (auto c = triangulation_.finite_cells_begin(); c != triangulation_.finite_cells_end(); ++c) {
-      if (!touches_inner(c)) continue;
+    std::vector<Triangulation::Cell_handle> handles;
+    handles.reserve(triangulation.tds().number_of_cells());
+    cells_.reserve(triangulation.tds().number_of_cells());
+    const auto infinite = triangulation.infinite_vertex();
+    for (auto c = triangulation.all_cells_begin(); c != triangulation.all_cells_end(); ++c) {
+      c->info() = -1;
+      if (c->has_vertex(infinite)) continue;
+      Tetrahedron t;
+      for (int i = 0; i < 4; ++i) t.point[static_cast<std::size_t>(i)] = c->vertex(i)->info();
+      if (std::none_of(t.point.begin(), t.point.end(), [&](std::int32_t p) { return is_inner(p); })) continue;
       c->info() = static_cast<std::int32_t>(cells_.size());
-      cells_.push_back(c);
+      handles.push_back(c);
+      cells_.push_back(t);
     }
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (int i = 0; i < 4; ++i) cells_[c].neighbor[static_cast<std::size_t>(i)] = handles[c]->neighbor(i)->info();
   }
 
-  [[nodiscard]] bool is_inner(const SiteCode& code) const {
-    return code.plane < 0 && static_cast<std::size_t>(code.site) < inner_count_;
+  [[nodiscard]] bool is_inner(std::int32_t point) const { return static_cast<std::size_t>(point) < inner_count_; }
+
+  [[nodiscard]] SiteCode code_of(std::int32_t point) const {
+    const auto sites = static_cast<std::int32_t>(inner_count_ + sites_.outer.size());
+    const auto inner = static_cast<std::int32_t>(inner_count_);
+    if (point < sites) return {point, -1};
+    return {(point - sites) % inner, (point - sites) / inner};
   }
 
-  [[nodiscard]] bool touches_inner(CellHandle c) const {
-    for (int i = 0; i < 4; ++i)
-      if (is_inner(c->vertex(i)->info())) return true;
-    return false;
+  [[nodiscard]] Vec3 position(std::int32_t point) const {
+    const auto& p = points_[static_cast<std::size_t>(point)].first;
+    return {p.x(), p.y(), p.z()};
   }
 
-  /// The cavity vertices on a site's sphere; an image has those of its site that lie on the plane.
-  [[nodiscard]] std::vector<std::int32_t> sphere_list(const SiteCode& code) const {
+  /// The cavity vertices on a site's sphere. An image shares those of its site that lie on the plane.
+  [[nodiscard]] const std::vector<std::int32_t>& sphere_list(const SiteCode& code) const {
     const auto site = static_cast<std::size_t>(code.site);
-    const auto& list = site < inner_count_ ? sites_.inner[site].on_sphere : sites_.outer[site - inner_count_].on_sphere;
-    if (code.plane < 0) return list;
-    const MirrorPlane& plane = cavity_.planes[static_cast<std::size_t>(code.plane)];
-    std::vector<std::int32_t> on_plane;
-    for (const auto v : list)
-      if (cavity_.vertices[static_cast<std::size_t>(v)].reference[plane.axis] == plane.coordinate)
-        on_plane.push_back(v);
-    return on_plane;
+    return site < inner_count_ ? sites_.inner[site].on_sphere : sites_.outer[site - inner_count_].on_sphere;
   }
 
-  [[nodiscard]] std::int32_t common_vertex(CellHandle c) const {
-    std::vector<std::int32_t> common = sphere_list(c->vertex(0)->info());
-    for (int i = 1; i < 4 && !common.empty(); ++i) {
-      const auto list = sphere_list(c->vertex(i)->info());
-      std::vector<std::int32_t> both;
-      std::set_intersection(common.begin(), common.end(), list.begin(), list.end(), std::back_inserter(both));
-      common = std::move(both);
-    }
-    return common.empty() ? -1 : common.front();
+  [[nodiscard]] bool is_on_sphere(const SiteCode& code, std::int32_t vertex) const {
+    const auto& list = sphere_list(code);
+    if (!std::binary_search(list.begin(), list.end(), vertex)) return false;
+    if (code.plane < 0) return true;
+    const MirrorPlane& plane = cavity_.planes[static_cast<std::size_t>(code.plane)];
+    return cavity_.vertices[static_cast<std::size_t>(vertex)].reference[plane.axis] == plane.coordinate;
+  }
+
+  using Codes = std::array<SiteCode, 4>;
+
+  /// The first cavity vertex on the spheres of all four sites, or -1.
+  [[nodiscard]] std::int32_t common_vertex(const Codes& codes) const {
+    for (const std::int32_t v : sphere_list(codes[0]))
+      if (std::all_of(codes.begin(), codes.end(), [&](const SiteCode& code) { return is_on_sphere(code, v); }))
+        return v;
+    return -1;
   }
 
   /// Planes that the dual lies on: a site and its own image are both at the tetrahedron.
-  static std::uint8_t planes_of(CellHandle c) {
+  static std::uint8_t planes_of(const Codes& codes) {
     std::uint8_t planes = 0;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const SiteCode& a = c->vertex(i)->info();
-        const SiteCode& b = c->vertex(j)->info();
+    for (const SiteCode& a : codes)
+      for (const SiteCode& b : codes)
         if (a.plane < 0 && b.plane >= 0 && a.site == b.site)
           planes = static_cast<std::uint8_t>(planes | (1U << static_cast<unsigned>(b.plane)));
-      }
     return planes;
   }
 
-  static Dual dual_of(CellHandle c) {
+  [[nodiscard]] Dual dual_of(const Tetrahedron& t) const {
     std::array<Vec3, 4> p;
     std::array<double, 4> w;
-    for (int i = 0; i < 4; ++i) {
-      const auto& q = c->vertex(i)->point();
-      p[static_cast<std::size_t>(i)] = {q.x(), q.y(), q.z()};
-      w[static_cast<std::size_t>(i)] = q.weight();
+    for (std::size_t i = 0; i < 4; ++i) {
+      p[i] = position(t.point[i]);
+      w[i] = points_[static_cast<std::size_t>(t.point[i])].first.weight();
     }
     const Vec3 a = p[1] - p[0];
     const Vec3 b = p[2] - p[0];
@@ -200,9 +216,11 @@ class DiagramBuilder {
     duals_.resize(cells_.size());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       Dual& dual = duals_[c];
-      const std::int32_t anchor = common_vertex(cells_[c]);
+      Codes codes;
+      for (std::size_t i = 0; i < 4; ++i) codes[i] = code_of(cells_[c].point[i]);
+      const std::int32_t anchor = common_vertex(codes);
       dual = dual_of(cells_[c]);
-      dual.planes = planes_of(cells_[c]);
+      dual.planes = planes_of(codes);
       if (anchor < 0) continue;
       dual.anchor = anchor;
       dual.is_flat = false;
@@ -222,8 +240,7 @@ class DiagramBuilder {
       std::vector<std::pair<std::size_t, Dual>> taken;
       for (const std::size_t c : flat) {
         const Dual* best = nullptr;
-        for (int i = 0; i < 4; ++i) {
-          const std::int32_t n = cells_[c]->neighbor(i)->info();
+        for (const std::int32_t n : cells_[c].neighbor) {
           if (n < 0 || duals_[static_cast<std::size_t>(n)].is_flat) continue;
           const Dual& candidate = duals_[static_cast<std::size_t>(n)];
           if (best == nullptr || candidate.quality > best->quality) best = &candidate;
@@ -246,8 +263,7 @@ class DiagramBuilder {
   void group_duals() {
     UnionFind groups(cells_.size());
     for (std::size_t c = 0; c < cells_.size(); ++c)
-      for (int i = 0; i < 4; ++i) {
-        const std::int32_t n = cells_[c]->neighbor(i)->info();
+      for (const std::int32_t n : cells_[c].neighbor) {
         if (n < 0) continue;
         const auto other = static_cast<std::size_t>(n);
         if (other < c && is_same(duals_[c], duals_[other])) groups.unite(c, other);
@@ -307,73 +323,112 @@ class DiagramBuilder {
     }
   }
 
+  /// The dual points around an edge of a tetrahedron; false where the edge belongs to an earlier one.
+  bool go_around(std::size_t first, int i, int j, std::vector<std::int32_t>& loop) {
+    loop.clear();
+    const std::int32_t a = cells_[first].point[static_cast<std::size_t>(i)];
+    const std::int32_t b = cells_[first].point[static_cast<std::size_t>(j)];
+    const auto is_earlier = [first](std::int32_t n) { return n >= 0 && static_cast<std::size_t>(n) < first; };
+    // Most edges are told by the neighbour on the other side.
+    if (is_earlier(cells_[first].neighbor[static_cast<std::size_t>(Triangulation::next_around_edge(j, i))]))
+      return false;
+    std::size_t c = first;
+    do {
+      loop.push_back(vertex_of_[c]);
+      const Tetrahedron& t = cells_[c];
+      const int next = Triangulation::next_around_edge(t.place_of(a), t.place_of(b));
+      const std::int32_t number = t.neighbor[static_cast<std::size_t>(next)];
+      if (number < 0) {
+        diagram_.failure = "a cell is not bounded";
+        return true;
+      }
+      if (is_earlier(number)) return false;
+      c = static_cast<std::size_t>(number);
+    } while (c != first);
+    return true;
+  }
+
   void extract_faces() {
+    static constexpr std::array<std::array<int, 2>, 6> edges_of_cell{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
     double largest = 0.0;
     bool is_reversed = false;  // of CGAL's circulation, told by the largest polygon
-    for (auto e = triangulation_.finite_edges_begin();
-         e != triangulation_.finite_edges_end() && diagram_.failure.empty(); ++e) {
-      auto a = e->first->vertex(e->second);
-      auto b = e->first->vertex(e->third);
-      if (!is_inner(a->info()) && !is_inner(b->info())) continue;
-      std::vector<std::int32_t> loop;
-      auto c = triangulation_.incident_cells(*e);
-      const auto end = c;
-      do {
-        if (c->info() < 0) {
-          diagram_.failure = "a cell is not bounded";
-          return;
+    std::vector<std::int32_t> loop;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell)
+      for (const auto& [i, j] : edges_of_cell) {
+        std::int32_t a = cells_[cell].point[static_cast<std::size_t>(i)];
+        std::int32_t b = cells_[cell].point[static_cast<std::size_t>(j)];
+        if (!is_inner(a) && !is_inner(b)) continue;
+        if (!go_around(cell, i, j, loop)) continue;
+        if (!diagram_.failure.empty()) return;
+        // Which end comes first and where the circulation starts depends on addresses: both are set by our own numbers.
+        if (b < a) {
+          std::swap(a, b);
+          std::reverse(loop.begin(), loop.end());
         }
-        loop.push_back(vertex_of_[static_cast<std::size_t>(c->info())]);
-      } while (++c != end);
-      // Which end comes first and where the circulation starts depends on addresses: both are set by our own numbers.
-      if (!is_inner(a->info()) || (is_inner(b->info()) && b->info().site < a->info().site)) {
-        std::swap(a, b);
-        std::reverse(loop.begin(), loop.end());
+        start_at_least(loop);
+        reduce(loop);
+        if (loop.size() < 3) continue;
+        const Vec3 area = area_vector(loop);
+        if (area.norm() > largest) {
+          largest = area.norm();
+          is_reversed = area.dot(position(b) - position(a)) < 0.0;
+        }
+        add_face(loop, a, code_of(b));
       }
-      start_at_least(loop);
-      reduce(loop);
-      if (loop.size() < 3) continue;
-      const Vec3 area = area_vector(loop);
-      if (area.norm() > largest) {
-        largest = area.norm();
-        const auto& p = a->point();
-        const auto& q = b->point();
-        is_reversed = area.dot(Vec3(q.x() - p.x(), q.y() - p.y(), q.z() - p.z())) < 0.0;
-      }
-      add_face(std::move(loop), a->info(), b->info());
-    }
     if (is_reversed)
       for (DiagramFace& f : diagram_.faces) std::reverse(f.loop.begin(), f.loop.end());
-    const auto key = [](const DiagramFace& f) { return std::tie(f.cell, f.other_kind, f.other, f.loop); };
-    std::sort(diagram_.faces.begin(), diagram_.faces.end(),
-              [&](const DiagramFace& f, const DiagramFace& g) { return key(f) < key(g); });
+    sort_faces();
+  }
+
+  /// By cell, then by what is on the other side, then by loop.
+  void sort_faces() {
+    std::vector<std::size_t> start(inner_count_ + 1, 0);
+    for (const DiagramFace& f : diagram_.faces) ++start[static_cast<std::size_t>(f.cell) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<DiagramFace> sorted(diagram_.faces.size());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    for (DiagramFace& f : diagram_.faces) sorted[next[static_cast<std::size_t>(f.cell)]++] = std::move(f);
+    const auto key = [](const DiagramFace& f) { return std::tie(f.other_kind, f.other, f.loop); };
+    for (std::size_t s = 0; s < inner_count_; ++s)
+      std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(start[s]),
+                sorted.begin() + static_cast<std::ptrdiff_t>(start[s + 1]),
+                [&](const DiagramFace& f, const DiagramFace& g) { return key(f) < key(g); });
+    diagram_.faces = std::move(sorted);
   }
 
   /// Rotates a loop to the first of its rotations in lexicographical order.
   static void start_at_least(std::vector<std::int32_t>& loop) {
-    std::vector<std::int32_t> best = loop;
-    for (std::size_t i = 1; i < loop.size(); ++i) {
-      std::rotate(loop.begin(), loop.begin() + 1, loop.end());
-      if (loop < best) best = loop;
-    }
-    loop = std::move(best);
+    const std::size_t n = loop.size();
+    const auto is_less = [&](std::size_t a, std::size_t b) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::int32_t x = loop[(a + i) % n];
+        const std::int32_t y = loop[(b + i) % n];
+        if (x != y) return x < y;
+      }
+      return false;
+    };
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < n; ++i)
+      if (loop[i] <= loop[best] && is_less(i, best)) best = i;
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(best), loop.end());
   }
 
   [[nodiscard]] Vec3 area_vector(const std::vector<std::int32_t>& loop) const {
-    std::vector<Vec3> points;
-    for (const auto v : loop) points.push_back(diagram_.vertices[static_cast<std::size_t>(v)]);
-    return polygon_geometry(points).area_vector;
+    const auto at = [&](std::size_t i) -> const Vec3& { return diagram_.vertices[static_cast<std::size_t>(loop[i])]; };
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) area += 0.5 * (at(i) - at(0)).cross(at(i + 1) - at(0));
+    return area;
   }
 
-  void add_face(std::vector<std::int32_t> loop, const SiteCode& cell, const SiteCode& other) {
+  void add_face(const std::vector<std::int32_t>& loop, std::int32_t cell, const SiteCode& other) {
     DiagramFace face;
-    face.loop = std::move(loop);
-    face.cell = cell.site;
+    face.loop = loop;
+    face.cell = cell;
     if (other.plane >= 0) {
       face.other_kind = DiagramFace::Other::plane;
       face.other = other.plane;
-      if (other.site != cell.site) diagram_.failure = "a site and the image of another have a common face";
-    } else if (is_inner(other)) {
+      if (other.site != cell) diagram_.failure = "a site and the image of another have a common face";
+    } else if (is_inner(other.site)) {
       face.other = other.site;
     } else {
       face.other_kind = DiagramFace::Other::outer;
@@ -385,10 +440,10 @@ class DiagramBuilder {
   const Cavity& cavity_;
   const Sites& sites_;
   std::size_t inner_count_;
-  Triangulation triangulation_;
-  std::vector<CellHandle> cells_;        ///< finite ones with an inner site
-  std::vector<Dual> duals_;              ///< per cell
-  std::vector<std::int32_t> vertex_of_;  ///< per cell
+  std::vector<std::pair<Kernel::Weighted_point_3, std::int32_t>> points_;  ///< and their own numbers
+  std::vector<Tetrahedron> cells_;                                         ///< finite ones with an inner site
+  std::vector<Dual> duals_;                                                ///< per cell
+  std::vector<std::int32_t> vertex_of_;                                    ///< per cell
   PowerDiagram diagram_;
 };
 
@@ -399,26 +454,36 @@ PowerDiagram build_power_diagram(const Cavity& cavity, const Sites& sites) {
 }
 
 BoundaryMatch match_boundary(const Cavity& cavity, const Sites& sites, const PowerDiagram& diagram) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> face_of;
+  using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;  // inner site, outer site, face
+  std::vector<Key> face_of;
+  face_of.reserve(cavity.faces.size());
   for (std::size_t f = 0; f < cavity.faces.size(); ++f)
-    face_of.emplace(std::pair(sites.inner_of[f], sites.outer_of[f]), static_cast<std::int32_t>(f));
+    face_of.emplace_back(sites.inner_of[f], sites.outer_of[f], static_cast<std::int32_t>(f));
+  std::sort(face_of.begin(), face_of.end());
+  const auto first_between = [&](std::int32_t inner, std::int32_t outer) {
+    const auto at = std::lower_bound(face_of.begin(), face_of.end(), Key(inner, outer, -1));
+    const bool is_there = at != face_of.end() && std::get<0>(*at) == inner && std::get<1>(*at) == outer;
+    return is_there ? std::get<2>(*at) : -1;
+  };
+  const auto sorted = [](std::vector<std::int32_t> loop) {
+    std::sort(loop.begin(), loop.end());
+    return loop;
+  };
   BoundaryMatch match;
+  match.boundary_face.reserve(diagram.faces.size());
   double volume = 0.0;
+  std::vector<Vec3> points;
   for (const DiagramFace& face : diagram.faces) {
-    std::vector<Vec3> points;
-    for (const auto v : face.loop) points.push_back(diagram.vertices[static_cast<std::size_t>(v)]);
-    const PolygonGeometry g = polygon_geometry(points);
-    if (face.other_kind != DiagramFace::Other::inner) volume += g.mean.dot(g.area_vector) / 3.0;
     std::int32_t boundary = -1;
+    if (face.other_kind != DiagramFace::Other::inner) {
+      points.clear();
+      for (const auto v : face.loop) points.push_back(diagram.vertices[static_cast<std::size_t>(v)]);
+      const PolygonGeometry g = polygon_geometry(points);
+      volume += g.mean.dot(g.area_vector) / 3.0;
+    }
     if (face.other_kind == DiagramFace::Other::outer) {
-      const auto at = face_of.find(std::pair(face.cell, face.other));
-      std::vector<std::int32_t> found = face.loop;
-      std::sort(found.begin(), found.end());
-      if (at != face_of.end()) {
-        std::vector<std::int32_t> given = cavity.faces[static_cast<std::size_t>(at->second)].loop;
-        std::sort(given.begin(), given.end());
-        if (given == found) boundary = at->second;
-      }
+      const std::int32_t f = first_between(face.cell, face.other);
+      if (f >= 0 && sorted(cavity.faces[static_cast<std::size_t>(f)].loop) == sorted(face.loop)) boundary = f;
       boundary >= 0 ? ++match.found : ++match.foreign;
     }
     match.boundary_face.push_back(boundary);

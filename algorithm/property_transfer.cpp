@@ -8,7 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
+
+#include "algorithm/host_transmissibility.h"
+#include "algorithm/rock_tensor.h"
 
 namespace wellknit {
 
@@ -89,12 +94,26 @@ std::vector<std::vector<FaceId>> faces_of_cells(const Mesh& mesh) {
   return out;
 }
 
+/// The source cell that holds all vertices and the centroid of a made cell; none where they lie in several.
+HostCellId single_source(const Mesh& mesh, const CellLocator& locator, const std::vector<FaceId>& faces, CellId cell) {
+  const auto first = locator.locate(mesh.cells.centroid[cell]);
+  if (!first) return {};
+  for (const FaceId f : faces)
+    for (const VertexId v : mesh.faces.loop(f))
+      if (!locator.locate_in(first->cell, mesh.vertices[v])) return {};
+  return first->cell;
+}
+
 std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locator, double part_volume,
                                      std::int64_t first_made) {
   const auto faces = faces_of_cells(mesh);
   const std::size_t first = static_cast<std::size_t>(first_made);
   std::vector<std::vector<Overlap>> parts(mesh.cells.size() - first);
   tbb::parallel_for(first, mesh.cells.size(), [&](std::size_t c) {
+    if (const HostCellId only = single_source(mesh, locator, faces[c], CellId(c)); only.is_valid()) {
+      parts[c - first].push_back({only, CellId(c), mesh.cells.volume[CellId(c)]});
+      return;
+    }
     TetrahedronSampler sampler(locator, part_volume);
     for (const FaceId f : faces[c]) {
       std::vector<Vec3> points;
@@ -110,59 +129,119 @@ std::vector<Overlap> sample_overlaps(const Mesh& mesh, const CellLocator& locato
   return out;
 }
 
+/// Volume of each source cell that removed cells held, m3.
+class RemovedVolumes {
+ public:
+  RemovedVolumes(const HostMesh& host, const std::vector<TransitionMesh>& cavities) : host_(host) {
+    for (const TransitionMesh& c : cavities)
+      for (const HostCellId cell : c.cavity.removed_cells) add(cell);
+  }
+
+  struct Part {
+    double volume = 0.0;
+    HostCellId cell;  ///< the first that held some of it
+  };
+  [[nodiscard]] const std::map<HostCellId, Part>& parts() const { return parts_; }
+  [[nodiscard]] double operator[](HostCellId source) const {
+    const auto found = parts_.find(source);
+    return found == parts_.end() ? 0.0 : found->second.volume;
+  }
+
+ private:
+  void add(HostCellId cell) {
+    if (cell.index() < host_.source_count()) return add(cell, cell, host_.volume[cell]);
+    const RefinedCells& refined = host_.refined;
+    const std::size_t number = cell.index() - host_.source_count();
+    for (auto p = static_cast<std::size_t>(refined.piece_start[number]);
+         p < static_cast<std::size_t>(refined.piece_start[number + 1]); ++p)
+      add(refined.piece_source[p], cell, refined.piece_fraction[p] * host_.volume[refined.piece_source[p]]);
+  }
+  void add(HostCellId source, HostCellId cell, double volume) {
+    Part& part = parts_[source];
+    part.volume += volume;
+    if (!part.cell.is_valid()) part.cell = cell;
+  }
+
+  const HostMesh& host_;
+  std::map<HostCellId, Part> parts_;
+};
+
+/// Factor that makes a sum the wanted one. A cell turned inside out, which the mesh check tells of, is not filled.
+double scale(double wanted, double sum) { return wanted > 0.0 && sum > 0.0 ? wanted / sum : 1.0; }
+
 /// Scales rows and columns in turn until sources give their volumes and cells are filled (iterative proportional
 /// fitting), sources last: their sums are what conserves pore volume.
-void balance(std::vector<Overlap>& overlaps, const HostMesh& host, const Mesh& mesh) {
+void balance(std::vector<Overlap>& overlaps, const HostMesh& host, const RemovedVolumes& removed, const Mesh& mesh) {
   std::vector<double> by_cell(mesh.cells.size());
-  std::vector<double> by_source(host.volume.size());
+  std::vector<double> by_source(host.source_count());
+  std::vector<double> wanted;
+  for (const Overlap& o : overlaps) wanted.push_back(removed[o.source]);
   for (int round = 0; round < 30; ++round) {
     std::fill(by_cell.begin(), by_cell.end(), 0.0);
     for (const Overlap& o : overlaps) by_cell[o.cell.index()] += o.volume;
-    for (Overlap& o : overlaps) o.volume *= mesh.cells.volume[o.cell] / by_cell[o.cell.index()];
+    for (Overlap& o : overlaps) o.volume *= scale(mesh.cells.volume[o.cell], by_cell[o.cell.index()]);
     for (const Overlap& o : overlaps) by_source[o.source.index()] = 0.0;
     for (const Overlap& o : overlaps) by_source[o.source.index()] += o.volume;
-    for (Overlap& o : overlaps) o.volume *= host.volume[o.source] / by_source[o.source.index()];
+    for (std::size_t n = 0; n < overlaps.size(); ++n)
+      overlaps[n].volume *= scale(wanted[n], by_source[overlaps[n].source.index()]);
   }
 }
 
 /// Source cells that no sample met give their volume to the made cell with the nearest centre.
-void add_unmet(const CornerPointGrid& grid, const std::vector<TransitionMesh>& cavities, const HostMesh& host,
-               const Mesh& mesh, std::int64_t first_made, std::vector<Overlap>& overlaps) {
-  std::vector<std::uint8_t> is_met(static_cast<std::size_t>(grid.cell_count()), 0);
+void add_unmet(const RemovedVolumes& removed, const HostMesh& host, const Mesh& mesh, std::int64_t first_made,
+               std::vector<Overlap>& overlaps) {
+  std::vector<std::uint8_t> is_met(host.source_count(), 0);
   for (const Overlap& o : overlaps) is_met[o.source.index()] = 1;
-  for (const TransitionMesh& c : cavities)
-    for (const auto& r : c.cavity.removed) {
-      const HostCellId source = grid.cell_id(r[0], r[1], r[2]);
-      if (is_met[source.index()] != 0 || !(host.volume[source] > 0.0)) continue;
-      Vec3 center = Vec3::Zero();
-      for (const Vec3& p : grid.corners(source)) center += p / 8.0;
-      CellId best;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t m = static_cast<std::size_t>(first_made); m < mesh.cells.size(); ++m)
-        if (const double d = (mesh.cells.center[CellId(m)] - center).squaredNorm(); d < nearest) {
-          nearest = d;
-          best = CellId(m);
-        }
-      overlaps.push_back({source, best, host.volume[source]});
-    }
+  for (const auto& [source, part] : removed.parts()) {
+    if (is_met[source.index()] != 0 || !(part.volume > 0.0)) continue;
+    const Vec3 center = host_cell_center(host, part.cell);
+    CellId best;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t m = static_cast<std::size_t>(first_made); m < mesh.cells.size(); ++m)
+      if (const double d = (mesh.cells.center[CellId(m)] - center).squaredNorm(); d < nearest) {
+        nearest = d;
+        best = CellId(m);
+      }
+    overlaps.push_back({source, best, part.volume});
+  }
 }
 
 /// Samples that fell into cells that were kept, by the chord error of curved faces, are not overlaps.
-void drop_kept(const Assembly& assembly, const HostMesh& host, std::vector<Overlap>& overlaps) {
-  std::erase_if(overlaps, [&](const Overlap& o) {
-    return assembly.cell_of[o.source].is_valid() || !(host.volume[o.source] > 0.0);
-  });
+void drop_kept(const RemovedVolumes& removed, std::vector<Overlap>& overlaps) {
+  std::erase_if(overlaps, [&](const Overlap& o) { return !(removed[o.source] > 0.0) || !(o.volume > 0.0); });
+}
+
+/// What kept cells hold of the source cells: all of one, or its parts in refined cells.
+void add_kept(const HostMesh& host, const Assembly& assembly, std::vector<Overlap>& overlaps) {
+  const RefinedCells& refined = host.refined;
+  for (std::size_t c = 0; c < assembly.host_cell.size(); ++c) {
+    const HostCellId from = assembly.host_cell[c];
+    if (from.index() < host.source_count()) {
+      overlaps.push_back({from, CellId(c), host.volume[from]});
+      continue;
+    }
+    const std::size_t number = from.index() - host.source_count();
+    for (auto p = static_cast<std::size_t>(refined.piece_start[number]);
+         p < static_cast<std::size_t>(refined.piece_start[number + 1]); ++p)
+      overlaps.push_back(
+          {refined.piece_source[p], CellId(c), refined.piece_fraction[p] * host.volume[refined.piece_source[p]]});
+  }
 }
 
 void write_transfer(const CornerPointGrid& grid, const HostMesh& host, std::vector<Overlap> overlaps,
                     Assembly& assembly) {
-  for (std::int64_t c = 0; c < grid.cell_count(); ++c)
-    if (const CellId cell = assembly.cell_of[HostCellId(c)]; cell.is_valid())
-      overlaps.push_back({HostCellId(c), cell, host.volume[HostCellId(c)]});
+  add_kept(host, assembly, overlaps);
+  // A folded source cell has no volume to give, though parts of it may have.
+  std::erase_if(overlaps, [&](const Overlap& o) { return !(host.volume[o.source] > 0.0); });
   std::sort(overlaps.begin(), overlaps.end(), [](const Overlap& a, const Overlap& b) {
     return a.source != b.source ? a.source < b.source : a.cell < b.cell;
   });
   Transfer& transfer = assembly.mesh.transfer;
+  const auto sources = static_cast<std::ptrdiff_t>(grid.cell_count());
+  assembly.mesh.source_volumes = {{host.volume.begin(), host.volume.begin() + sources},
+                                  {host.pore_volume.begin(), host.pore_volume.begin() + sources}};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(sources); ++c)
+    if (host.exists[HostCellId(c)] == 0) assembly.mesh.source_volumes.pores[c] = 0.0;
   transfer.start.assign(static_cast<std::size_t>(grid.cell_count()) + 1, 0);
   for (const Overlap& o : overlaps) {
     ++transfer.start[o.source.index() + 1];
@@ -292,20 +371,22 @@ void transfer_properties(const CornerPointGrid& grid, const HostMesh& host, cons
   if (!cavities.empty()) {
     const std::int64_t first_made = assembly.first_transition_cell.front();
     double volume = 0.0;
-    std::size_t count = 0;
+    std::set<HostCellId> sources;
     for (const TransitionMesh& c : cavities)
-      for (const auto& r : c.cavity.removed) {
-        volume += host.volume[grid.cell_id(r[0], r[1], r[2])];
-        ++count;
+      for (const HostCellId cell : c.cavity.removed_cells) {
+        volume += host.volume[cell];
+        sources.insert(host.source_of(cell));
       }
-    // About 64 parts of four points in a mean source cell.
-    overlaps = sample_overlaps(assembly.mesh, locator, volume / static_cast<double>(64 * count), first_made);
-    drop_kept(assembly, host, overlaps);
-    add_unmet(grid, cavities, host, assembly.mesh, first_made, overlaps);
-    balance(overlaps, host, assembly.mesh);
+    // About 64 parts of four points in what is removed of a mean source cell.
+    overlaps = sample_overlaps(assembly.mesh, locator, volume / static_cast<double>(64 * sources.size()), first_made);
+    const RemovedVolumes removed(host, cavities);
+    drop_kept(removed, overlaps);
+    add_unmet(removed, host, assembly.mesh, first_made, overlaps);
+    balance(overlaps, host, removed, assembly.mesh);
   }
   write_transfer(grid, host, std::move(overlaps), assembly);
   set_properties(grid, host, assembly);
+  set_rock_axes(host, assembly);
   carry_other_properties(grid, host, assembly.mesh);
 }
 

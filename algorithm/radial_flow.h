@@ -1,31 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The wellknit authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-/// What radial flow towards a well does to the transmissibility of a face of the transition mesh (method.md §12).
+/// What flow towards a well does to the transmissibility of a face outside of its tube (method.md §12).
 ///
-/// Two-point transmissibilities take the pressure as linear between two centres. Around a well it is linear in ln r.
-/// For a face between centres at distances r_1 and r_2 from the well's axis, p = ln r gives the flux F = integral of
-/// grad p . n over the face, and the transmissibility that carries just this flux is k F / (ln r_2 - ln r_1). Its ratio
-/// to the linear one is the factor here. The idea, taking transmissibilities near wells from the analytical solution,
-/// is Ding's (key Ding).
+/// Two-point transmissibilities take the pressure as linear between two centres. Around a well it is that of a line
+/// sink, p = ln rho (line_sink.h). For a face between two centres this p gives the flux F = integral of n.K grad p over
+/// the face; the transmissibility that carries just this flux is F over the drop of p. Its ratio to the linear one is
+/// the factor here. The idea, taking transmissibilities near wells from the analytical solution, is Ding's (key Ding).
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "algorithm/assembly.h"
+#include "model/well.h"
 
 namespace wellknit {
 
+/// A face and its linear transmissibility in rock of one permeability.
+struct LinearFace {
+  std::array<Vec3, 2> centers;
+  std::span<const Vec3> points;
+  const PolygonGeometry& geometry;
+  Eigen::Matrix3d permeability;   ///< m2
+  double transmissibility = 0.0;  ///< m3
+};
+
+/// Cosine of the angle between a face's normal and the line of centres where the permeability measures lengths:
+/// A.l / sqrt(A.K A) / sqrt(l.K^-1 l). 1 where K A is along l, and where K cannot be inverted.
+double permeability_cosine(const Eigen::Matrix3d& k, const Vec3& area_vector, const Vec3& line);
+
 class RadialFlow {
  public:
-  /// `assembly` must outlive this.
-  explicit RadialFlow(const Assembly& assembly);
+  /// `wells`: those that the tubes' numbers mean; tubes and their meshes must outlive this.
+  RadialFlow(const std::vector<PlacedTube>& tubes, const std::vector<Well>& wells);
 
-  /// Factor on the linear transmissibility of a face between two transition cells; 1 far from all tubes, between two of
-  /// them, beyond their ends, and where the line of centres runs around the well rather than to it. Between 1/2 and 2.
-  [[nodiscard]] double factor(CellId first, CellId second, std::span<const Vec3> face) const;
+  /// Factor on a face's linear transmissibility; 1 far from all tubes, between two of them, beyond the ends of the
+  /// wells, and where the line of centres runs around the well rather than to it. Between 1/2 and 2.
+  [[nodiscard]] double factor(const LinearFace& face) const;
 
  private:
   /// A straight piece of a tube's axis.
@@ -33,18 +46,41 @@ class RadialFlow {
     Vec3 from;
     Vec3 to;
   };
-  /// Foot of the perpendicular on the nearest tube's axis.
+  struct Box {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+    void add(const Vec3& p) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    [[nodiscard]] double distance(const Vec3& p) const { return (p - p.cwiseMax(low).cwiseMin(high)).norm(); }
+  };
+  /// An axis, with what the well goes on beyond the tube; runs of its pieces that are farther than another are passed
+  /// over at once.
+  struct Axis {
+    const Tube* tube = nullptr;
+    double bore_radius = 0.0;  ///< m
+    std::vector<Piece> pieces;
+    std::vector<Box> runs;  ///< of run_length pieces
+    Box box;
+  };
+  /// Foot of the perpendicular on the nearest axis.
   struct Nearest {
+    const Axis* axis = nullptr;
     Vec3 foot = Vec3::Zero();
-    double distance = 0.0;       ///< m
-    double next_distance = 0.0;  ///< to the second nearest tube, m; infinite for a lone one
+    Vec3 along = Vec3::Zero();                                       ///< of the piece
+    double distance = std::numeric_limits<double>::infinity();       ///< m
+    double next_distance = std::numeric_limits<double>::infinity();  ///< to the nearest of another well, m
     bool is_beyond_end = false;
   };
 
-  [[nodiscard]] Nearest nearest_axis(std::size_t cavity, const Vec3& point) const;
+  static Axis axis_of(const Tube& tube, const Well& well);
+  static Nearest nearest_on(const Axis& axis, const Vec3& point);
+  [[nodiscard]] Nearest nearest_axis(const Vec3& point) const;
 
-  const Assembly& assembly_;
-  std::vector<std::vector<std::vector<Piece>>> axes_;  ///< per cavity, per tube
+  static constexpr std::size_t run_length = 8;
+
+  std::vector<Axis> axes_;
 };
 
 }  // namespace wellknit

@@ -10,13 +10,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/cell_locator.h"
-#include "algorithm/host_mesh.h"
-#include "model/corner_point_grid.h"
+#include "algorithm/near_well_grid.h"
 
 namespace wellknit {
 
-/// A block of cells, [low, high) along each axis.
+/// A block of source cells, [low, high) along each axis; along k in places, downwards.
 struct CellRange {
   std::array<std::int64_t, 3> low{};
   std::array<std::int64_t, 3> high{};
@@ -35,9 +33,13 @@ struct Box {
 /// Planes of E_ref. In a left-handed grid the second axis runs backwards, so that the mapping keeps orientation.
 class ReferenceSpace {
  public:
-  /// Spacings are the mean edge lengths of the existing cells of `region` (of all cells where none exists), rounded to
-  /// a multiple of reference_resolution so that mirror images are exact.
-  ReferenceSpace(const CornerPointGrid& grid, const HostMesh& host, const CellRange& region);
+  /// Spacings are the mean edge lengths of the existing source cells of `region` (of all cells where none exists), in
+  /// the grid's parts and layers, rounded to a multiple of reference_resolution so that mirror images are exact. With
+  /// `path`, source cells (i, j, place) that wells run through, a slab's mean is over those of its cells that stand at
+  /// the part of the path nearest to the slab, and one around them: where layers swell and thin out along a well, each
+  /// is as thick as where the well crosses it.
+  ReferenceSpace(const NearWellGrid& grid, const CellRange& region,
+                 const std::vector<std::array<std::int64_t, 3>>& path = {});
 
   /// Coordinate of plane `index` (0 … n) of an axis.
   [[nodiscard]] double plane(int axis, std::int64_t index) const {
@@ -49,6 +51,7 @@ class ReferenceSpace {
   [[nodiscard]] Box box(const std::array<std::int64_t, 3>& cell) const;
   /// phi_0 of a located point.
   [[nodiscard]] Vec3 map(const std::array<std::int64_t, 3>& cell, const Vec3& uvw) const;
+  [[nodiscard]] Vec3 map(const NearWellLocation& at) const { return map(at.cell, at.uvw); }
   /// The place among the planes of a coordinate: index of the cell (0 … n-1, the end ones also outside) and the
   /// fraction in it.
   [[nodiscard]] std::pair<std::int64_t, double> place(int axis, double coordinate) const;

@@ -5,16 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
-#include <set>
+#include <unordered_set>
 
 namespace wellknit {
 
 namespace {
 
 constexpr double short_part = 0.03;  ///< of the drainage radius: method.md §9
-constexpr int most_rounds = 6;       ///< each costs one diagram, some hundredths of a second
+constexpr int most_rounds = 6;       ///< each costs one diagram
+constexpr double least_gain = 0.05;  ///< of the short edges: what a round must gain for another to be worth a diagram
+/// Of the sites: where more would have to move, the short edges come from the regularity of the grid and the tube, and
+/// moved sites only change their places.
+constexpr double most_moved = 0.5;
 
 double short_limit(const Cavity& cavity) {
   double radius = std::numeric_limits<double>::infinity();
@@ -23,25 +27,43 @@ double short_limit(const Cavity& cavity) {
 }
 
 /// Cells at each vertex of the given edges.
-std::map<std::int32_t, std::set<std::int32_t>> cells_at(const PowerDiagram& diagram,
-                                                        const std::vector<std::array<std::int32_t, 2>>& edges) {
-  std::map<std::int32_t, std::set<std::int32_t>> out;
-  for (const auto& e : edges) {
-    out[e[0]];
-    out[e[1]];
-  }
-  for (const DiagramFace& f : diagram.faces)
-    for (const auto v : f.loop)
-      if (const auto at = out.find(v); at != out.end()) {
-        at->second.insert(f.cell);
-        if (f.other_kind == DiagramFace::Other::inner) at->second.insert(f.other);
+class CellsAtVertices {
+ public:
+  CellsAtVertices(const PowerDiagram& diagram, const std::vector<std::array<std::int32_t, 2>>& edges)
+      : place_(diagram.vertices.size(), -1) {
+    for (const auto& e : edges)
+      for (const auto v : e)
+        if (auto& place = place_[static_cast<std::size_t>(v)]; place < 0) {
+          place = static_cast<std::int32_t>(cells_.size());
+          cells_.emplace_back();
+        }
+    for (const DiagramFace& f : diagram.faces)
+      for (const auto v : f.loop) {
+        const std::int32_t place = place_[static_cast<std::size_t>(v)];
+        if (place < 0) continue;
+        auto& cells = cells_[static_cast<std::size_t>(place)];
+        add(cells, f.cell);
+        if (f.other_kind == DiagramFace::Other::inner) add(cells, f.other);
       }
-  return out;
-}
+    for (auto& cells : cells_) std::sort(cells.begin(), cells.end());
+  }
+
+  /// Rising.
+  [[nodiscard]] const std::vector<std::int32_t>& at(std::int32_t vertex) const {
+    return cells_[static_cast<std::size_t>(place_[static_cast<std::size_t>(vertex)])];
+  }
+
+ private:
+  static void add(std::vector<std::int32_t>& cells, std::int32_t cell) {
+    if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+  }
+
+  std::vector<std::int32_t> place_;               ///< per vertex, in cells_; -1: at no edge
+  std::vector<std::vector<std::int32_t>> cells_;  ///< a handful each
+};
 
 /// The cells that end at one of an edge's vertices: moving such a site moves that vertex along the edge.
-std::vector<std::int32_t> end_cells(const std::map<std::int32_t, std::set<std::int32_t>>& cells,
-                                    const std::array<std::int32_t, 2>& edge) {
+std::vector<std::int32_t> end_cells(const CellsAtVertices& cells, const std::array<std::int32_t, 2>& edge) {
   std::vector<std::int32_t> out;
   const auto& a = cells.at(edge[0]);
   const auto& b = cells.at(edge[1]);
@@ -68,7 +90,7 @@ DiagramTrial try_diagram(const Cavity& cavity, const std::vector<double>& part) 
 
 std::vector<std::array<std::int32_t, 2>> short_edges(const Cavity& cavity, const PowerDiagram& diagram, double limit) {
   const auto boundary = static_cast<std::int32_t>(cavity.vertices.size());
-  std::set<std::array<std::int32_t, 2>> edges;
+  std::vector<std::array<std::int32_t, 2>> edges;
   for (const DiagramFace& f : diagram.faces)
     for (std::size_t i = 0; i < f.loop.size(); ++i) {
       const std::int32_t a = f.loop[i];
@@ -76,9 +98,11 @@ std::vector<std::array<std::int32_t, 2>> short_edges(const Cavity& cavity, const
       if (a < boundary && b < boundary) continue;
       if ((diagram.vertices[static_cast<std::size_t>(a)] - diagram.vertices[static_cast<std::size_t>(b)]).norm() <
           limit)
-        edges.insert({std::min(a, b), std::max(a, b)});
+        edges.push_back({std::min(a, b), std::max(a, b)});
     }
-  return {edges.begin(), edges.end()};
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 DiagramTrial expand_short_edges(const Cavity& cavity, DiagramTrial trial, AdjustmentReport& report) {
@@ -88,13 +112,14 @@ DiagramTrial expand_short_edges(const Cavity& cavity, DiagramTrial trial, Adjust
   std::vector<double> part(cavity.faces.size(), 1.0);
   double step = 0.9;
   for (int round = 0; round < most_rounds && !edges.empty(); ++round) {
-    const auto cells = cells_at(trial.diagram, edges);
-    std::set<std::int32_t> moved;
+    const CellsAtVertices cells(trial.diagram, edges);
+    std::unordered_set<std::int32_t> moved;
     for (const auto& e : edges) {
       // One end cell for each edge, and not one that another edge moves already: two moves may cancel.
       for (const auto c : end_cells(cells, e))
         if (moved.insert(c).second) break;
     }
+    if (static_cast<double>(moved.size()) > most_moved * static_cast<double>(trial.sites.inner.size())) break;
     auto next_part = part;
     for (std::size_t f = 0; f < part.size(); ++f)
       if (cavity.faces[f].kind != BoundaryFaceKind::cap && moved.contains(trial.sites.inner_of[f]))
@@ -105,13 +130,13 @@ DiagramTrial expand_short_edges(const Cavity& cavity, DiagramTrial trial, Adjust
       continue;
     }
     auto next_edges = short_edges(cavity, next.diagram, limit);
-    if (next_edges.size() >= edges.size()) {
-      step = 0.5 * (1.0 + step);
-      continue;
-    }
+    if (next_edges.size() >= edges.size()) break;
+    const bool is_worth_more =
+        static_cast<double>(next_edges.size()) <= (1.0 - least_gain) * static_cast<double>(edges.size());
     part = std::move(next_part);
     trial = std::move(next);
     edges = std::move(next_edges);
+    if (!is_worth_more) break;
   }
   report.short_after = static_cast<std::int64_t>(edges.size());
   return trial;

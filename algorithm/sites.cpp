@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+
+#include "algorithm/weighted_point_tree.h"
 
 namespace wellknit {
 
@@ -68,67 +71,127 @@ Vec3 on_axis(const BoundaryFace& f, double t) {
   return {on_reference_lattice(c.x()), on_reference_lattice(c.y()), on_reference_lattice(c.z())};
 }
 
-struct WeightedPoint {
-  Vec3 center;
-  double weight;
+/// The sites of the faces on one side as points and weights.
+struct WeightedPoints {
+  std::vector<Vec3> centers;
+  std::vector<double> weights;
 };
 
-std::vector<WeightedPoint> weighted_points(const Cavity& cavity, const std::vector<double>& t) {
-  std::vector<WeightedPoint> points(t.size());
+WeightedPoints weighted_points(const Cavity& cavity, const std::vector<double>& t) {
+  WeightedPoints points;
+  points.centers.reserve(t.size());
+  points.weights.reserve(t.size());
   for (std::size_t f = 0; f < t.size(); ++f) {
     const BoundaryFace& face = cavity.faces[f];
-    points[f] = {face.center + t[f] * face.normal, face.radius * face.radius + t[f] * t[f]};
+    points.centers.push_back(face.center + t[f] * face.normal);
+    points.weights.push_back(face.radius * face.radius + t[f] * t[f]);
   }
   return points;
 }
 
-/// Which inner sites have a smaller power than their own at their centres: 1 where so. Images in the planes never do.
-std::vector<std::uint8_t> sites_outside_cells(const std::vector<WeightedPoint>& inner,
-                                              const std::vector<WeightedPoint>& outer) {
-  std::vector<std::uint8_t> out(inner.size(), 0);
-  tbb::parallel_for(std::size_t{0}, inner.size(), [&](std::size_t s) {
-    const Vec3& c = inner[s].center;
-    // Coincident sites have equal power: rounding must not count.
-    const double own = -inner[s].weight * (1.0 + 1e-10);
-    const auto wins = [&](const WeightedPoint& p) { return (c - p.center).squaredNorm() - p.weight < own; };
-    out[s] = std::any_of(inner.begin(), inner.end(), wins) || std::any_of(outer.begin(), outer.end(), wins) ? 1 : 0;
-  });
-  return out;
-}
-
-/// Makes one site of those that coincide; a hash of the lattice would split pairs at its borders, so neighbours are
-/// searched by x.
-class SiteList {
+/// Tells which inner sites lie outside of their cells. Images in the planes never beat a site.
+class CentringTest {
  public:
-  std::int32_t add(const Vec3& center, double weight, const std::vector<std::int32_t>& loop, double tolerance,
-                   std::vector<Site>& sites) {
-    for (auto at = by_x_.lower_bound(center.x() - tolerance); at != by_x_.end() && at->first <= center.x() + tolerance;
-         ++at) {
-      Site& site = sites[static_cast<std::size_t>(at->second)];
-      if ((site.center - center).norm() > tolerance) continue;
-      site.on_sphere.insert(site.on_sphere.end(), loop.begin(), loop.end());
-      return at->second;
-    }
-    const auto id = static_cast<std::int32_t>(sites.size());
-    sites.push_back({center, weight, loop});
-    by_x_.emplace(center.x(), id);
-    return id;
+  CentringTest(WeightedPoints inner, const WeightedPoints& outer)
+      : inner_(std::move(inner)),
+        inner_tree_(inner_.centers, inner_.weights),
+        outer_tree_(outer.centers, outer.weights) {}
+
+  void move(WeightedPoints inner) {
+    inner_ = std::move(inner);
+    inner_tree_.refit(inner_.centers, inner_.weights);
+  }
+
+  /// Those of the given sites at whose centres another site has a smaller power than their own, in the order given.
+  [[nodiscard]] std::vector<std::size_t> outside(const std::vector<std::size_t>& sites) const {
+    std::vector<std::uint8_t> is_outside(sites.size(), 0);
+    tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t i) {
+      const Vec3& c = inner_.centers[sites[i]];
+      // Coincident sites have equal power: rounding must not count.
+      const double own = -inner_.weights[sites[i]] * (1.0 + 1e-10);
+      const auto wins = [&](std::size_t, double power) { return power < own; };
+      is_outside[i] = inner_tree_.visit(c, own, wins) || outer_tree_.visit(c, own, wins) ? 1 : 0;
+    });
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+      if (is_outside[i] != 0) out.push_back(sites[i]);
+    return out;
   }
 
  private:
-  std::multimap<double, std::int32_t> by_x_;
+  WeightedPoints inner_;
+  WeightedPointTree inner_tree_;
+  WeightedPointTree outer_tree_;
 };
+
+/// Draws inner sites towards their faces until each lies in its cell; how many still do not. A site that was moved is
+/// tested again at once, all are when none is left.
+std::int64_t centre_sites(const Cavity& cavity, const std::vector<std::int32_t>& group, Offsets& t) {
+  CentringTest test(weighted_points(cavity, t.in), weighted_points(cavity, t.out));
+  std::vector<std::size_t> all(t.in.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<std::size_t> tested = all;
+  for (int round = 0;;) {
+    const auto outside = test.outside(tested);
+    if (outside.empty()) {
+      if (tested.size() == all.size()) return 0;
+      tested = all;
+      continue;
+    }
+    if (round++ == most_shrinks) return static_cast<std::int64_t>(test.outside(all).size());
+    const std::vector<double> before = t.in;
+    for (const std::size_t f : outside) {
+      const double least = std::max(cavity.faces[f].t_low, 0.0);
+      t.in[f] = least + shrink * (t.in[f] - least);
+    }
+    level_groups(group, t.in);
+    tested.clear();
+    for (const std::size_t f : all)
+      if (t.in[f] != before[f]) tested.push_back(f);
+    test.move(weighted_points(cavity, t.in));
+  }
+}
+
+/// One site for each face, or for several whose sites coincide: the first of them then stands for all. Returns the
+/// site of each face.
+std::vector<std::int32_t> unite_sites(const Cavity& cavity, const std::vector<double>& t, std::vector<Site>& sites) {
+  std::vector<Vec3> centers(t.size());
+  for (std::size_t f = 0; f < t.size(); ++f) centers[f] = on_axis(cavity.faces[f], t[f]);
+  const WeightedPointTree tree(centers);
+  std::vector<std::int32_t> site_of(t.size(), -1);
+  for (std::size_t f = 0; f < t.size(); ++f) {
+    const BoundaryFace& face = cavity.faces[f];
+    const double tolerance = coincidence * face.radius;
+    std::size_t first = f;
+    tree.visit(centers[f], tolerance * tolerance, [&](std::size_t g, double) {
+      if (g < first && sites[static_cast<std::size_t>(site_of[g])].center == centers[g]) first = g;
+      return false;
+    });
+    if (first == f) {
+      site_of[f] = static_cast<std::int32_t>(sites.size());
+      sites.push_back({centers[f], face.radius * face.radius + t[f] * t[f], face.loop});
+    } else {
+      site_of[f] = site_of[first];
+      auto& list = sites[static_cast<std::size_t>(site_of[f])].on_sphere;
+      list.insert(list.end(), face.loop.begin(), face.loop.end());
+    }
+  }
+  return site_of;
+}
 
 /// Adds the vertices that lie on a site's sphere without belonging to its face (a natural site's sphere passes through
 /// all corners of its box), and sorts the lists.
-void complete_lists(const std::vector<CavityVertex>& vertices, std::vector<Site>& sites) {
+void complete_lists(const std::vector<CavityVertex>& vertices, const WeightedPointTree& tree,
+                    std::vector<Site>& sites) {
   constexpr double on_sphere =
       1e-9;  // of the weight: rounding of centre and weight; the next vertices are off by 1e-3 and more
   tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t i) {
     Site& s = sites[i];
-    for (std::size_t v = 0; v < vertices.size(); ++v)
+    tree.visit(s.center, s.weight * (1.0 + 2.0 * on_sphere), [&](std::size_t v, double) {
       if (std::abs((vertices[v].reference - s.center).squaredNorm() - s.weight) <= on_sphere * s.weight)
         s.on_sphere.push_back(static_cast<std::int32_t>(v));
+      return false;
+    });
     std::sort(s.on_sphere.begin(), s.on_sphere.end());
     s.on_sphere.erase(std::unique(s.on_sphere.begin(), s.on_sphere.end()), s.on_sphere.end());
   });
@@ -142,32 +205,16 @@ Sites place_sites(const Cavity& cavity, const std::vector<double>& part) {
   for (std::size_t f = 0; f < part.size(); ++f)
     if (cavity.faces[f].t_low <= 0.0) t.in[f] *= part[f];
   level_groups(group, t.in);
-  const auto outer = weighted_points(cavity, t.out);
   Sites sites;
-  for (int round = 0; round <= most_shrinks; ++round) {
-    const auto outside = sites_outside_cells(weighted_points(cavity, t.in), outer);
-    sites.not_centred = std::count(outside.begin(), outside.end(), 1);
-    if (sites.not_centred == 0 || round == most_shrinks) break;
-    for (std::size_t f = 0; f < outside.size(); ++f) {
-      if (outside[f] == 0) continue;
-      const double least = cavity.faces[f].t_low > 0.0 ? cavity.faces[f].t_low : 0.0;
-      t.in[f] = least + shrink * (t.in[f] - least);
-    }
-    level_groups(group, t.in);
-  }
-  SiteList inner_list;
-  SiteList outer_list;
-  for (std::size_t f = 0; f < cavity.faces.size(); ++f) {
-    const BoundaryFace& face = cavity.faces[f];
-    const double tolerance = coincidence * face.radius;
-    const double r2 = face.radius * face.radius;
-    sites.inner_of.push_back(
-        inner_list.add(on_axis(face, t.in[f]), r2 + t.in[f] * t.in[f], face.loop, tolerance, sites.inner));
-    sites.outer_of.push_back(
-        outer_list.add(on_axis(face, t.out[f]), r2 + t.out[f] * t.out[f], face.loop, tolerance, sites.outer));
-  }
-  complete_lists(cavity.vertices, sites.inner);
-  complete_lists(cavity.vertices, sites.outer);
+  sites.not_centred = centre_sites(cavity, group, t);
+  sites.inner_of = unite_sites(cavity, t.in, sites.inner);
+  sites.outer_of = unite_sites(cavity, t.out, sites.outer);
+  std::vector<Vec3> points;
+  points.reserve(cavity.vertices.size());
+  for (const CavityVertex& v : cavity.vertices) points.push_back(v.reference);
+  const WeightedPointTree tree(points);
+  complete_lists(cavity.vertices, tree, sites.inner);
+  complete_lists(cavity.vertices, tree, sites.outer);
   return sites;
 }
 

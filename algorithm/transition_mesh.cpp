@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "algorithm/cavity_mapping.h"
 #include "algorithm/cell_center.h"
+#include "algorithm/cell_opening.h"
 #include "algorithm/short_edges.h"
 
 namespace wellknit {
@@ -20,61 +20,70 @@ namespace {
 constexpr int most_dilations = 2;
 
 /// Of several wells the last one gives way, and the others try again.
-NoCavity failed(const Cavity& cavity, std::string reason) { return {std::move(reason), {cavity.tubes.back().well}}; }
-
-/// Faces of each cell, outward.
-std::vector<std::vector<OutwardFace>> faces_by_cell(const TransitionMesh& mesh) {
-  std::vector<std::vector<OutwardFace>> out(mesh.centers.size());
-  std::vector<Vec3> points;
-  for (const DiagramFace& f : mesh.faces) {
-    points.clear();
-    for (const auto v : f.loop) points.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-    const PolygonGeometry g = polygon_geometry(points);
-    out[static_cast<std::size_t>(f.cell)].push_back({g.mean, g.area_vector});
-    if (f.other_kind == DiagramFace::Other::inner)
-      out[static_cast<std::size_t>(f.other)].push_back({g.mean, -g.area_vector});
-  }
-  return out;
+NoCavity failed(const Cavity& cavity, std::string reason) {
+  return {std::move(reason), {cavity.tubes.size() - 1}, true};
 }
 
-double volume_of(const std::vector<OutwardFace>& faces) {
-  double volume = 0.0;
-  for (const OutwardFace& f : faces) volume += (f.mean - faces.front().mean).dot(f.area_vector) / 3.0;
-  return volume;
-}
+/// A cell that cannot be used.
+struct BadCell {
+  std::string reason;
+  Vec3 center = Vec3::Zero();
+};
 
-/// Mapped sites see their cells where phi is gentle; elsewhere the nearest point that does is taken.
-std::optional<std::string> choose_centers(TransitionMesh& mesh) {
-  const auto faces = faces_by_cell(mesh);
+/// Mapped sites see their cells where phi is gentle; elsewhere the nearest point that does is taken. Cells that no
+/// point sees are opened first. Returns the first that stays unseen.
+std::optional<BadCell> choose_centers(const std::vector<std::uint8_t>& is_fixed, TransitionMesh& mesh) {
+  auto faces = outward_faces(mesh);
+  const auto is_seen = [&](std::size_t c) {
+    return smallest_height(faces[c], mesh.centers[c]) > 1e-6 * cell_size(faces[c]);
+  };
+  bool are_seen = true;
+  for (std::size_t c = 0; c < mesh.centers.size() && are_seen; ++c) are_seen = is_seen(c);
+  if (are_seen) return std::nullopt;
+  const OpeningReport opening = open_cells(mesh, is_fixed);
+  mesh.summary.cells_closed_after_mapping = opening.closed_first;
+  mesh.summary.vertices_moved = opening.moved;
+  mesh.summary.cells_merged = opening.merged;
+  if (opening.moved > 0 || opening.merged > 0) faces = outward_faces(mesh);
+  const auto bad = [&](const Vec3& at, const char* what) {
+    return BadCell{fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) {}", at.x(), at.y(), at.z(), what), at};
+  };
   for (std::size_t c = 0; c < mesh.centers.size(); ++c) {
-    const double volume = volume_of(faces[c]);
-    if (!(volume > 0.0))
-      return fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) is inside out after the mapping",
-                         mesh.centers[c].x(), mesh.centers[c].y(), mesh.centers[c].z());
-    const double size = std::cbrt(volume);
+    if (!(enclosed_volume(faces[c]) > 0.0)) return bad(mesh.centers[c], "is inside out after the mapping");
     // The site stays wherever it sees its cell: moving it costs orthogonality.
-    if (smallest_height(faces[c], mesh.centers[c]) > 1e-6 * size) continue;
-    if (const auto p = point_that_sees_all(faces[c], mesh.centers[c], size))
-      mesh.centers[c] = *p;
-    else
-      ++mesh.summary.cells_not_seen_from_centre;
+    if (is_seen(c)) continue;
+    const auto p = point_that_sees_all(faces[c], mesh.centers[c], cell_size(faces[c]));
+    if (!p) return bad(mesh.centers[c], "is seen whole from no point after the mapping");
+    mesh.centers[c] = *p;
   }
   return std::nullopt;
+}
+
+/// Vertices that must stay: those of the boundary, and those on the grid's own outside.
+std::vector<std::uint8_t> fixed_vertices(const Cavity& cavity, const PowerDiagram& diagram) {
+  std::vector<std::uint8_t> is_fixed(diagram.vertices.size(), 0);
+  for (std::size_t v = 0; v < is_fixed.size(); ++v)
+    is_fixed[v] = v < cavity.vertices.size() || diagram.planes[v] != 0 ? 1 : 0;
+  return is_fixed;
 }
 
 /// Boundary vertices have their exact real positions; the others and the sites go through phi.
 void map_back(const CavityMapping& mapping, const Sites& sites, const PowerDiagram& diagram, TransitionMesh& mesh) {
   for (const CavityVertex& v : mesh.cavity.vertices) mesh.vertices.push_back(v.real);
-  for (std::size_t v = mesh.vertices.size(); v < diagram.vertices.size(); ++v)
-    mesh.vertices.push_back(mapping.to_real(diagram.vertices[v]));
-  for (const Site& s : sites.inner) mesh.centers.push_back(mapping.to_real(s.center));
+  const auto inner = mapping.to_real(std::span(diagram.vertices).subspan(mesh.vertices.size()));
+  mesh.vertices.insert(mesh.vertices.end(), inner.begin(), inner.end());
+  std::vector<Vec3> centers;
+  centers.reserve(sites.inner.size());
+  for (const Site& s : sites.inner) centers.push_back(s.center);
+  mesh.centers = mapping.to_real(centers);
 }
 
-void count(const PowerDiagram& diagram, TransitionMesh& mesh) {
-  std::set<std::int32_t> used;
-  for (const DiagramFace& f : diagram.faces) used.insert(f.loop.begin(), f.loop.end());
-  mesh.summary.transition_vertices = static_cast<std::int64_t>(used.size());
-  mesh.summary.transition_faces = static_cast<std::int64_t>(diagram.faces.size());
+void count(TransitionMesh& mesh) {
+  std::vector<std::uint8_t> is_used(mesh.vertices.size(), 0);
+  for (const DiagramFace& f : mesh.faces)
+    for (const auto v : f.loop) is_used[static_cast<std::size_t>(v)] = 1;
+  mesh.summary.transition_vertices = std::count(is_used.begin(), is_used.end(), 1);
+  mesh.summary.transition_faces = static_cast<std::int64_t>(mesh.faces.size());
   mesh.summary.transition_cells = static_cast<std::int64_t>(mesh.centers.size());
 }
 
@@ -86,6 +95,19 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
   if (auto* none = std::get_if<NoCavity>(&cavity)) return std::move(*none);
   TransitionMesh mesh;
   mesh.cavity = std::move(std::get<Cavity>(cavity));
+  // First, since it is what fails most often.
+  const CavityMapping mapping(mesh.cavity, method);
+  const MappingReport& report = mapping.report();
+  mesh.summary.inverted_tetrahedra = report.inverted_first;
+  mesh.summary.loops = report.loops;
+  mesh.summary.points_inserted = report.points_inserted;
+  mesh.summary.outer_nodes_left_out = report.plane_nodes_left_out;
+  if (!report.failure.empty()) {
+    NoCavity none = failed(mesh.cavity, report.failure + ": the grid is deformed too much around the tube");
+    if (!report.tubes_at_fault.empty()) none.tubes = report.tubes_at_fault;
+    none.places = report.places_at_fault;
+    return none;
+  }
   DiagramTrial trial = try_diagram(mesh.cavity, {});
   // The sites of a layered cavity stand in columns: moving one of a column would tilt the faces between its layers.
   const bool is_layered =
@@ -110,37 +132,38 @@ std::variant<TransitionMesh, NoCavity> try_once(const HostFrame& frame, const st
     return failed(mesh.cavity,
                   fmt::format("the power diagram gives back {} of {} boundary faces ({} foreign, volume error {:.1e})",
                               match.found, mesh.summary.boundary_faces, match.foreign, match.volume_error));
-  const CavityMapping mapping(mesh.cavity, method);
-  const MappingReport& report = mapping.report();
-  mesh.summary.inverted_tetrahedra = report.inverted_first;
-  mesh.summary.loops = report.loops;
-  mesh.summary.points_inserted = report.points_inserted;
-  mesh.summary.outer_nodes_left_out = report.plane_nodes_left_out;
-  if (!report.failure.empty()) {
-    NoCavity none = failed(mesh.cavity,
-                           report.failure + ": the grid is deformed too much around the tube; choose a smaller radius");
-    if (!report.tubes_at_fault.empty()) {
-      none.wells.clear();
-      for (const std::size_t t : report.tubes_at_fault) none.wells.push_back(mesh.cavity.tubes[t].well);
-    }
-    return none;
-  }
   map_back(mapping, sites, diagram, mesh);
-  count(diagram, mesh);
+  const auto is_fixed = fixed_vertices(mesh.cavity, diagram);
   mesh.faces = std::move(diagram.faces);
   mesh.boundary_face = std::move(match.boundary_face);
   mesh.summary.cells_removed = static_cast<std::int64_t>(mesh.cavity.removed.size());
   mesh.summary.cavity_rounds = mesh.cavity.rounds;
-  if (auto reason = choose_centers(mesh)) return failed(mesh.cavity, *reason);
+  if (const auto bad = choose_centers(is_fixed, mesh)) {
+    NoCavity none = failed(mesh.cavity, bad->reason);
+    none.places = {nearest_place(mesh.cavity.tubes, bad->center, &Tube::real)};
+    none.tubes = {none.places[0].tube};
+    return none;
+  }
+  count(mesh);
   return mesh;
 }
 
 }  // namespace
 
+namespace {
+
+bool may_be_larger(const std::variant<TransitionMesh, NoCavity>& result) {
+  const auto* none = std::get_if<NoCavity>(&result);
+  return none != nullptr && none->may_be_larger;
+}
+
+}  // namespace
+
 std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes,
-                                                             MappingMethod method) {
+                                                             MappingMethod method, bool tight) {
   auto result = try_once(frame, tubes, method, 0);
-  for (int dilation = 1; dilation <= most_dilations && std::holds_alternative<NoCavity>(result); ++dilation) {
+  if (tight || std::holds_alternative<TransitionMesh>(result)) return result;
+  for (int dilation = 1; dilation <= most_dilations && may_be_larger(result); ++dilation) {
     auto next = try_once(frame, tubes, method, dilation);
     // The first reason is the plainest; later ones speak of a larger cavity.
     if (std::holds_alternative<TransitionMesh>(next)) return next;

@@ -25,8 +25,8 @@ struct TransitionMesh {
 };
 
 /// Runs the steps for wells that share a cavity. Where a step fails, the cavity is enlarged and all is tried again,
-/// twice.
+/// twice; not if it is to stay `tight`.
 std::variant<TransitionMesh, NoCavity> build_transition_mesh(const HostFrame& frame, const std::vector<Tube>& tubes,
-                                                             MappingMethod method);
+                                                             MappingMethod method, bool tight = false);
 
 }  // namespace wellknit

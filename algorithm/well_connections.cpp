@@ -14,8 +14,11 @@
 
 #include "algorithm/cell_center.h"
 #include "algorithm/cell_path.h"
-#include "algorithm/flow_connections.h"
+#include "algorithm/line_sink.h"
 #include "algorithm/peaceman.h"
+#include "algorithm/refined_path.h"
+#include "algorithm/rock_tensor.h"
+#include "algorithm/tube_flow.h"
 #include "model/errors.h"
 
 namespace wellknit {
@@ -31,35 +34,32 @@ struct MadePart {
 
 /// Index of a bore through a polyhedral cell, as Peaceman's in a cube of its volume: an equivalent radius of 0.2 of its
 /// edge and the permeability across the path. An estimate: the cell is no cube and the bore not in its middle.
-double made_cell_index(const Cells& cells, CellId cell, const MadePart& part, double bore_radius, double skin) {
-  const Vec3& k = cells.permeability[cell];
-  const double ntg = cells.net_to_gross[cell];
-  const Vec3 lateral(k.x() * ntg, k.y() * ntg, k.z());
+double made_cell_index(const Assembly& assembly, CellId cell, const MadePart& part, double bore_radius, double skin) {
   const Vec3 direction = part.path.norm() > 0.0 ? Vec3(part.path.normalized()) : Vec3(Vec3::UnitZ());
-  // Geometric mean across the path: det K over the permeability along it, square root.
-  const double along = direction.dot(lateral.cwiseProduct(direction));
-  if (!(along > 0.0)) return 0.0;
-  const double across = std::sqrt(lateral.prod() / along);
-  const double radius = 0.2 * std::cbrt(cells.volume[cell]);
+  const Eigen::Matrix2d k = BoreSection(direction, direction).permeability(rock_tensor(assembly, cell));
+  const double across = LineSink(k, bore_radius).conductance();
+  const double radius = 0.2 * std::cbrt(assembly.mesh.cells.volume[cell]);
   const double resistance = std::log(std::max(radius / bore_radius, 1.0 + 1e-3)) + skin;
   return resistance > 0.0 ? 2.0 * std::numbers::pi * across * part.length / resistance : 0.0;
 }
 
-/// The open stretches of a well less the measured depths of its tube.
-std::vector<MeasuredDepthRange> open_outside(const Well& well, const PlacedTube* tube) {
+/// The open stretches of a well less the measured depths of its tubes.
+std::vector<MeasuredDepthRange> open_outside(const Well& well, const std::vector<const PlacedTube*>& tubes) {
   std::vector<MeasuredDepthRange> open = well.open;
   if (open.empty()) open.push_back({well.trajectory.measured_depth.front(), well.trajectory.measured_depth.back()});
-  if (tube == nullptr) return open;
-  const double from = std::min(tube->tube->real.measured_depth.front(), tube->tube->real.measured_depth.back());
-  const double to = std::max(tube->tube->real.measured_depth.front(), tube->tube->real.measured_depth.back());
-  std::vector<MeasuredDepthRange> out;
-  for (const MeasuredDepthRange& o : open) {
-    // A millimetre is less than any perforation and more than rounding.
-    constexpr double shortest = 1e-3;
-    if (std::min(o.to, from) - o.from > shortest) out.push_back({o.from, std::min(o.to, from)});
-    if (o.to - std::max(o.from, to) > shortest) out.push_back({std::max(o.from, to), o.to});
+  for (const PlacedTube* tube : tubes) {
+    const auto& md = tube->tube->real.measured_depth;
+    const auto [from, to] = std::minmax_element(md.begin(), md.end());
+    std::vector<MeasuredDepthRange> out;
+    for (const MeasuredDepthRange& o : open) {
+      // A millimetre is less than any perforation and more than rounding.
+      constexpr double shortest = 1e-3;
+      if (std::min(o.to, *from) - o.from > shortest) out.push_back({o.from, std::min(o.to, *from)});
+      if (o.to - std::max(o.from, *to) > shortest) out.push_back({std::max(o.from, *to), o.to});
+    }
+    open = std::move(out);
   }
-  return out;
+  return open;
 }
 
 }  // namespace
@@ -76,6 +76,7 @@ class WellConnector::MadeCells {
     double deepest = -std::numeric_limits<double>::infinity();
     for (std::int64_t i = mesh_.transfer.start[source.index()]; i < mesh_.transfer.start[source.index() + 1]; ++i) {
       const CellId cell = mesh_.transfer.cell[static_cast<std::size_t>(i)];
+      if (mesh_.cells.kind[cell] < CellKind::transition) continue;
       const double h = smallest_height(faces_of(cell), point);
       if (h <= deepest) continue;
       deepest = h;
@@ -85,10 +86,11 @@ class WellConnector::MadeCells {
   }
 
   /// Parts of the path in removed source cells, by made cell, in steps of a hundredth of each part.
-  std::map<CellId, MadePart> parts_of(const Assembly& assembly, const std::vector<CellPart>& parts,
+  std::map<CellId, MadePart> parts_of(const Assembly& assembly, const HostPath& path,
                                       const std::vector<MeasuredDepthRange>& open) {
     std::map<CellId, MadePart> out;
-    for (const CellPart& part : parts) {
+    for (std::size_t n = 0; n < path.parts.size(); ++n) {
+      const CellPart& part = path.parts[n];
       if (assembly.cell_of[part.cell].is_valid()) continue;
       constexpr int steps = 100;
       const double step = (part.measured_depth.to - part.measured_depth.from) / steps;
@@ -97,7 +99,7 @@ class WellConnector::MadeCells {
         if (std::none_of(open.begin(), open.end(),
                          [&](const MeasuredDepthRange& o) { return o.from <= md && md <= o.to; }))
           continue;
-        const auto cell = at(part.cell, part.entry + (s + 0.5) / steps * (part.exit - part.entry));
+        const auto cell = at(path.source[n], part.entry + (s + 0.5) / steps * (part.exit - part.entry));
         if (!cell) continue;
         auto [entry, is_new] = out.emplace(*cell, MadePart{});
         if (is_new) entry->second.measured_depth = {md - 0.5 * step, md};
@@ -142,23 +144,28 @@ WellConnector::~WellConnector() = default;
 
 WellConnections WellConnector::connect(std::size_t well_index, const Well& well) {
   WellConnections out;
-  const PlacedTube* tube = nullptr;
+  std::vector<const PlacedTube*> tubes;
   for (const PlacedTube& t : assembly_.tubes)
-    if (t.tube->well == well_index) tube = &t;
-  if (tube != nullptr) out.all = connect_tube(assembly_.mesh, *tube, well);
-  if (tube != nullptr && tube->tube->layered) return out;  // its tube runs from top to base
+    if (t.tube->well == well_index) tubes.push_back(&t);
+  for (const PlacedTube* tube : tubes) {
+    const auto more = connect_tube(assembly_, *tube, well);
+    out.all.insert(out.all.end(), more.begin(), more.end());
+  }
+  // A layered tube runs from top to base.
+  if (std::any_of(tubes.begin(), tubes.end(), [](const PlacedTube* t) { return t->tube->layered; })) return out;
   Well rest = well;
-  rest.open = open_outside(well, tube);
+  rest.open = open_outside(well, tubes);
   if (rest.open.empty()) return out;
   const auto parts = cells_along(grid_, locator_, well.trajectory);
-  const bool is_from_deck = tube == nullptr && !well.completions.empty();
+  const HostPath path = split_at_refined(grid_, host_, parts);
+  const bool is_from_deck = tubes.empty() && !well.completions.empty();
   const auto kept =
-      is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, parts);
+      is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, path.parts);
   for (const HostWellConnection& c : kept)
     if (const CellId cell = assembly_.cell_of[c.cell]; cell.is_valid())
       out.all.push_back({cell, c.well_index, c.measured_depth});
-  for (const auto& [cell, part] : made_cells_->parts_of(assembly_, parts, rest.open)) {
-    const double index = made_cell_index(assembly_.mesh.cells, cell, part, well.radial.bore_radius, well.skin);
+  for (const auto& [cell, part] : made_cells_->parts_of(assembly_, path, rest.open)) {
+    const double index = made_cell_index(assembly_, cell, part, well.radial.bore_radius, well.skin);
     // The well's own radial cells belong to its tube's open part.
     const bool is_own = assembly_.mesh.cells.well[cell] == WellId(well_index);
     if (index > 0.0 && !is_own) out.all.push_back({cell, index, part.measured_depth});

@@ -23,13 +23,13 @@ constexpr double mode_angle = 30.0 * std::numbers::pi / 180.0;
 /// Rings that lean more than this from their path's normal are first smoothed; about the angle that a segment of a
 /// well at the limit of curvature turns by.
 constexpr double tilt_limit = 6.0 * std::numbers::pi / 180.0;
-constexpr double outside_gap = 0.5;  ///< of the drainage radius: least distance of a swept tube to the grid's outside
 constexpr double least_lateral_ratio =
     0.5;  ///< method.md §3: the drainage radius is at most half the radius of curvature
 constexpr double least_reference_ratio = 0.2;
 constexpr int most_natural_segments =
     500;  ///< of a swept tube when the user does not say: a longer one gets longer cells
-constexpr double least_layer_thickness = 1e-3;  ///< m, at the well; thinner ones count as pinched out
+/// Of the drainage radius: what a layered tube keeps from a fault.
+constexpr double layered_gap = 0.8;
 
 // ---- layered
 // ----------------------------------------------------------------------------------------------------------
@@ -48,9 +48,9 @@ Crossing refine_crossing(const HostFrame& frame, const WellPath& path, PathSampl
   const bool rises = b.reference.z() > a.reference.z();
   for (int step = 0; step < 50; ++step) {
     const double middle = 0.5 * (a.measured_depth + b.measured_depth);
-    const auto location = frame.locator.locate(path.point(middle), a.location.cell);
+    const auto location = frame.grid.locate(path.point(middle), a.location.source);
     if (!location) break;
-    PathSample m{middle, frame.space.map(frame.grid.ijk(location->cell), location->uvw), *location};
+    PathSample m{middle, frame.space.map(*location), *location};
     ((m.reference.z() < plane) == rises ? a : b) = m;
   }
   const double width = b.reference.z() - a.reference.z();
@@ -60,7 +60,7 @@ Crossing refine_crossing(const HostFrame& frame, const WellPath& path, PathSampl
 }
 
 std::vector<Crossing> horizon_crossings(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path) {
-  const std::int64_t nz = frame.grid.dimensions[2];
+  const std::int64_t nz = frame.grid.dimensions()[2];
   std::vector<Crossing> crossings(static_cast<std::size_t>(nz) + 1);
   const WellPath curve(well.trajectory);
   const double touch = 1e-9 * std::abs(frame.space.plane(2, nz) - frame.space.plane(2, 0));
@@ -130,7 +130,7 @@ std::optional<int> layer_without_thickness(const RadialMesh& mesh) {
   for (int k = 0; k < mesh.segments; ++k)
     for (int c = 0; c <= mesh.rings; ++c)
       for (int s = 0; s < mesh.sectors; ++s)
-        if (!(mesh.point(k + 1, c, s).z() - mesh.point(k, c, s).z() >= least_layer_thickness)) return k;
+        if (!(mesh.point(k + 1, c, s).z() - mesh.point(k, c, s).z() >= 0.5 * least_cell_thickness)) return k;
   return std::nullopt;
 }
 
@@ -175,25 +175,31 @@ RadialMesh reference_prism(const HostFrame& frame, const PlanCircle& circle, con
 // ---- swept
 // ------------------------------------------------------------------------------------------------------------
 
-/// A stretch of the path, by sample.
-struct Stretch {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
-
 /// True where a disc of radius r normal to the path keeps the gap to all outer planes.
-bool is_clear_of_outside(const HostFrame& frame, const std::vector<PathSample>& path, std::size_t s, double r) {
-  const std::size_t a = s == 0 ? 0 : s - 1;
-  const std::size_t b = s + 1 == path.size() ? s : s + 1;
-  const Vec3 along = (path[b].reference - path[a].reference).normalized();
+bool is_clear_of_outside(const HostFrame& frame, const Vec3& at, const Vec3& along, double r, double gap) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double extent = r * std::sqrt(std::max(0.0, 1.0 - along[axis] * along[axis])) + outside_gap * r;
+    const double extent = r * std::sqrt(std::max(0.0, 1.0 - along[axis] * along[axis])) + gap;
     const double p0 = frame.space.plane(axis, 0);
-    const double p1 = frame.space.plane(axis, frame.grid.dimensions[static_cast<std::size_t>(axis)]);
-    const double x = path[s].reference[axis];
-    if (x - std::min(p0, p1) < extent || std::max(p0, p1) - x < extent) return false;
+    const double p1 = frame.space.plane(axis, frame.grid.dimensions()[static_cast<std::size_t>(axis)]);
+    if (at[axis] - std::min(p0, p1) < extent || std::max(p0, p1) - at[axis] < extent) return false;
   }
   return true;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double t = std::clamp((p - a).dot(d) / std::max(d.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (p - a - t * d).norm();
+}
+
+bool is_clear_of_tubes(const Vec3& point, double radius, const std::vector<Neighbour>& neighbours, double gap) {
+  return std::none_of(neighbours.begin(), neighbours.end(), [&](const Neighbour& n) {
+    const double least = radius + n.radius + gap * std::min(radius, n.radius);
+    const auto& axis = n.mesh->axis;
+    for (std::size_t k = 0; k + 1 < axis.size(); ++k)
+      if (distance_to_segment(point, axis[k], axis[k + 1]) < least) return true;
+    return false;
+  });
 }
 
 /// The measured depths that the tube should cover: the open part and one drainage radius beyond it.
@@ -208,36 +214,6 @@ MeasuredDepthRange wanted_range(const Well& well, const std::vector<PathSample>&
   }
   const double margin = well.radial.drainage_radius;
   return {std::max(range.from, from - margin), std::min(range.to, to + margin)};
-}
-
-std::optional<Stretch> longest_clear_stretch(const HostFrame& frame, const Well& well,
-                                             const std::vector<PathSample>& path) {
-  const MeasuredDepthRange wanted = wanted_range(well, path);
-  std::optional<Stretch> best;
-  double best_length = 0.0;
-  std::size_t s = 0;
-  const auto is_good = [&](std::size_t i) {
-    return path[i].measured_depth >= wanted.from && path[i].measured_depth <= wanted.to &&
-           is_clear_of_outside(frame, path, i, well.radial.drainage_radius);
-  };
-  const double step = path.size() > 1 ? path[1].measured_depth - path[0].measured_depth : 0.0;
-  while (s < path.size()) {
-    if (!is_good(s)) {
-      ++s;
-      continue;
-    }
-    std::size_t e = s;
-    // A jump in measured depth is a part of the path outside of the grid.
-    while (e + 1 < path.size() && is_good(e + 1) && path[e + 1].measured_depth - path[e].measured_depth < 1.5 * step)
-      ++e;
-    const double length = path[e].measured_depth - path[s].measured_depth;
-    if (length > best_length) {
-      best_length = length;
-      best = Stretch{s, e};
-    }
-    s = e + 1;
-  }
-  return best;
 }
 
 /// Frames of a reflection sweep; stations are smoothed until the rings stand normal to the path within tilt_limit.
@@ -264,28 +240,23 @@ Sweep smooth_sweep(const std::vector<Vec3>& stations) {
   return sweep;
 }
 
-/// phi_0 of the outermost circles and of the stations; empty where a point lies outside of the grid.
+/// phi_0 of the outermost circles and of the stations.
 struct MappedRings {
   std::vector<Vec3> stations;
   std::vector<Vec3> outer;  ///< station * sectors + sector
 };
 
-std::optional<MappedRings> map_rings(const HostFrame& frame, const RadialMesh& mesh) {
+/// The rings, or the first station with a point outside of the grid.
+std::variant<MappedRings, int> map_rings(const HostFrame& frame, const RadialMesh& mesh) {
   MappedRings out;
   HostCellId hint;
-  const auto mapped = [&](const Vec3& p) -> std::optional<Vec3> {
-    const auto location = frame.locator.locate(p, hint);
-    if (!location) return std::nullopt;
-    hint = location->cell;
-    return frame.space.map(frame.grid.ijk(location->cell), location->uvw);
-  };
   for (int k = 0; k < mesh.stations(); ++k) {
-    const auto center = mapped(mesh.axis[static_cast<std::size_t>(k)]);
-    if (!center) return std::nullopt;
+    const auto center = frame.map(mesh.axis[static_cast<std::size_t>(k)], hint);
+    if (!center) return k;
     out.stations.push_back(*center);
     for (int s = 0; s < mesh.sectors; ++s) {
-      const auto p = mapped(mesh.point(k, mesh.rings, s));
-      if (!p) return std::nullopt;
+      const auto p = frame.map(mesh.point(k, mesh.rings, s), hint);
+      if (!p) return k;
       out.outer.push_back(*p);
     }
   }
@@ -340,10 +311,10 @@ std::vector<PathSample> path_in_reference(const HostFrame& frame, const Well& we
   const double to = curve.last_depth();
   for (int s = 0; s <= path_sample_count; ++s) {
     const double md = from + (to - from) * s / path_sample_count;
-    const auto location = frame.locator.locate(curve.point(md), hint);
+    const auto location = frame.grid.locate(curve.point(md), hint);
     if (!location) continue;
-    hint = location->cell;
-    samples.push_back({md, frame.space.map(frame.grid.ijk(location->cell), location->uvw), *location});
+    hint = location->source;
+    samples.push_back({md, frame.space.map(*location), *location});
   }
   return samples;
 }
@@ -360,68 +331,97 @@ MeshMode choose_mode(const std::vector<PathSample>& path, double drainage_radius
   return drift < drainage_radius ? MeshMode::layered : MeshMode::swept;
 }
 
-TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path) {
+std::vector<MeasuredDepthRange> clear_stretches(const HostFrame& frame, const Well& well,
+                                                const std::vector<PathSample>& path, const Obstacles& obstacles,
+                                                const std::vector<Neighbour>& neighbours, const Gaps& gaps) {
+  std::vector<MeasuredDepthRange> out;
+  if (path.size() < 2) return out;
+  const double radius = well.radial.drainage_radius;
+  const MeasuredDepthRange wanted = wanted_range(well, path);
+  const WellPath curve(well.trajectory);
+  const auto is_good = [&](std::size_t s) {
+    const double md = path[s].measured_depth;
+    if (md < wanted.from || md > wanted.to) return false;
+    const std::size_t a = s == 0 ? 0 : s - 1;
+    const std::size_t b = s + 1 == path.size() ? s : s + 1;
+    const Vec3 along = (path[b].reference - path[a].reference).normalized();
+    return is_clear_of_outside(frame, path[s].reference, along, radius, gaps.outside * radius) &&
+           obstacles.is_clear(path[s].reference, along, radius, gaps.obstacle * radius) &&
+           is_clear_of_tubes(curve.point(md), radius, neighbours, gaps.tube);
+  };
+  const double step = path[1].measured_depth - path[0].measured_depth;
+  for (std::size_t s = 0; s < path.size(); ++s) {
+    if (!is_good(s)) continue;
+    std::size_t e = s;
+    // A jump in measured depth is a part of the path outside of the grid.
+    while (e + 1 < path.size() && path[e + 1].measured_depth - path[e].measured_depth < 1.5 * step && is_good(e + 1))
+      ++e;
+    if (path[e].measured_depth - path[s].measured_depth >= radius)
+      out.push_back({path[s].measured_depth, path[e].measured_depth});
+    s = e;
+  }
+  return out;
+}
+
+TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path,
+                                const Obstacles& obstacles) {
   const auto radii = circle_radii(well.radial);
   auto crossings = horizon_crossings(frame, well, path);
   extend_crossings(frame, path, crossings);
+  for (const Crossing& c : crossings)
+    if (!obstacles.is_clear_in_plan(c.x, c.y, (1.0 + layered_gap) * radii.back()))
+      return NoTube{fmt::format("a fault or a place without thickness lies within {:.3g} m of it",
+                                (1.0 + layered_gap) * radii.back())};
   Tube tube;
   tube.layered = true;
-  tube.real.segments = static_cast<int>(frame.grid.dimensions[2]);
+  tube.real.segments = static_cast<int>(frame.grid.dimensions()[2]);
   tube.real.sectors = well.radial.sectors;
   tube.real.rings = well.radial.rings;
   std::vector<Vec3> outer;
   for (std::size_t level = 0; level < crossings.size(); ++level)
     if (!add_horizon_rings(frame, static_cast<std::int64_t>(level), crossings[level], radii, well.radial.sectors,
                            tube.real, outer))
-      return NoTube{
-          fmt::format("the tube of radius {:g} m leaves the grid, or meets a fault, at the top of layer {}: choose a "
-                      "smaller radius",
-                      radii.back(), level + 1)};
+      return NoTube{fmt::format("its tube of radius {:g} m leaves the grid, or meets a fault, at the top of layer {}",
+                                radii.back(), level + 1)};
   if (const auto layer = layer_without_thickness(tube.real))
-    return NoTube{
-        fmt::format("layer {} pinches out within {:g} m of the well; pinch-outs inside a tube are not handled yet",
-                    *layer + 1, radii.back())};
+    return NoTube{fmt::format("layer {} pinches out within {:g} m of it", *layer + 1, radii.back())};
   const PlanCircle circle = fit_plan_circle(outer, tube.real.sectors);
   tube.reference_radius = circle.radius;
   tube.reference = reference_prism(frame, circle, tube.real, radii);
   return tube;
 }
 
-TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path) {
-  const auto radii = circle_radii(well.radial);
+TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const MeasuredDepthRange& stretch) {
+  const int most = most_rings(well.radial);
+  if (most == 0) return NoTube{fmt::format("a swept tube needs 6 or more sectors, not {}", well.radial.sectors)};
+  RadialOptions options = well.radial;
+  options.rings = std::min(options.rings, most);
+  const auto radii = circle_radii(options);
   const double outer = radii.back();
-  const auto stretch = longest_clear_stretch(frame, well, path);
-  const double length = stretch ? path[stretch->last].measured_depth - path[stretch->first].measured_depth : 0.0;
-  if (length < outer)
-    return NoTube{fmt::format(
-        "no stretch of one drainage radius ({:g} m) keeps {:g} m from the top, base and sides of the grid: choose a "
-        "smaller radius",
-        outer, (1.0 + outside_gap) * outer)};
-  if (const int most = most_rings(well.radial); well.radial.rings > most)
-    return NoTube{most > 0 ? fmt::format("{} rings in {} sectors are too thin for the cells at the tube's ends to hold "
-                                         "their centres: choose at most {} "
-                                         "rings, or more sectors",
-                                         well.radial.rings, well.radial.sectors, most)
-                           : fmt::format("a swept tube needs 6 or more sectors, not {}", well.radial.sectors)};
+  const double length = stretch.to - stretch.from;
   const int natural_segments = std::clamp(static_cast<int>(std::lround(length / outer)), 2, most_natural_segments);
-  const int segments = well.radial.segments.value_or(natural_segments);
-  const double from = path[stretch->first].measured_depth;
-  const double to = path[stretch->last].measured_depth;
-  const Sweep sweep = smooth_sweep(even_stations(well, from, to, segments));
+  const int segments = options.segments.value_or(natural_segments);
+  const Sweep sweep = smooth_sweep(even_stations(well, stretch.from, stretch.to, segments));
   Tube tube;
-  tube.real = sweep_rings(sweep.frames, radii, well.radial.sectors, 0.0);
-  for (int k = 0; k <= segments; ++k) tube.real.measured_depth.push_back(from + (to - from) * k / segments);
+  tube.real = sweep_rings(sweep.frames, radii, options.sectors, 0.0);
+  for (int k = 0; k <= segments; ++k) tube.real.measured_depth.push_back(stretch.from + length * k / segments);
   int tight = 0;
   if (sweep.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.real, &tight) < least_lateral_ratio)
-    return NoTube{
-        fmt::format("the well bends too sharply for a drainage radius of {:g} m at measured depth {:.1f} m: choose a "
-                    "smaller radius",
-                    outer, tube.real.measured_depth[static_cast<std::size_t>(tight)])};
+    return NoTube{fmt::format("it bends too sharply for a drainage radius of {:g} m at measured depth {:.1f} m", outer,
+                              tube.real.measured_depth[static_cast<std::size_t>(tight)]),
+                  tube.real.measured_depth[static_cast<std::size_t>(tight)]};
+  if (options.rings < well.radial.rings)
+    tube.notes.push_back(fmt::format(
+        "{} rings instead of {}: thinner ones in {} sectors could not hold their centres at the tube's ends",
+        options.rings, well.radial.rings, options.sectors));
   if (sweep.largest_move > 1e-3 * outer)
     tube.notes.push_back(
         fmt::format("the path was smoothed by up to {:.2g} m for the rings to stand normal to it", sweep.largest_move));
-  const auto mapped = map_rings(frame, tube.real);
-  if (!mapped) return NoTube{fmt::format("the tube of radius {:g} m leaves the grid: choose a smaller radius", outer)};
+  const auto rings = map_rings(frame, tube.real);
+  if (const int* outside = std::get_if<int>(&rings))
+    return NoTube{fmt::format("its tube of radius {:g} m leaves the grid", outer),
+                  tube.real.measured_depth[static_cast<std::size_t>(*outside)]};
+  const auto* mapped = &std::get<MappedRings>(rings);
   const Sweep ideal = smooth_sweep(mapped->stations);
   const auto [angle, radius] = fit_rings(ideal.frames, *mapped, tube.real.sectors);
   std::vector<double> scaled = radii;
@@ -429,10 +429,10 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const st
   tube.reference_radius = radius;
   tube.reference = sweep_rings(ideal.frames, scaled, tube.real.sectors, angle);
   if (ideal.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.reference, &tight) < least_reference_ratio)
-    return NoTube{fmt::format(
-        "the grid bends too sharply around the well at measured depth {:.1f} m for a drainage radius of {:g} m: choose "
-        "a smaller radius",
-        tube.real.measured_depth[static_cast<std::size_t>(tight)], outer)};
+    return NoTube{
+        fmt::format("the grid bends too sharply around it at measured depth {:.1f} m for a drainage radius of {:g} m",
+                    tube.real.measured_depth[static_cast<std::size_t>(tight)], outer),
+        tube.real.measured_depth[static_cast<std::size_t>(tight)]};
   return tube;
 }
 

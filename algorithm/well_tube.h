@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "algorithm/cell_locator.h"
+#include "algorithm/obstacles.h"
 #include "algorithm/radial_mesh.h"
 #include "algorithm/reference_space.h"
 #include "model/well.h"
@@ -31,23 +31,30 @@ struct Tube {
 /// Why there is no tube: one sentence that says what would help.
 struct NoTube {
   std::string reason;
+  std::optional<double> measured_depth{};  ///< where a swept one fails, if it is known
 };
 
 using TubeOrReason = std::variant<Tube, NoTube>;
 
 /// What the tubes are built in.
 struct HostFrame {
-  const CornerPointGrid& grid;
-  const HostMesh& host;
-  const CellLocator& locator;
+  const NearWellGrid& grid;
   const ReferenceSpace& space;
+
+  /// phi_0 of a point of the grid.
+  [[nodiscard]] std::optional<Vec3> map(const Vec3& point, HostCellId& hint) const {
+    const auto at = grid.locate(point, hint);
+    if (!at) return std::nullopt;
+    hint = at->source;
+    return space.map(*at);
+  }
 };
 
 /// A sample of the path inside the grid.
 struct PathSample {
   double measured_depth = 0.0;
   Vec3 reference = Vec3::Zero();
-  Location location;
+  NearWellLocation location;
 };
 
 /// The path in E_ref: samples inside the grid in order of measured depth; empty when the well misses the grid.
@@ -57,10 +64,30 @@ std::vector<PathSample> path_in_reference(const HostFrame& frame, const Well& we
 /// in the grid, by less than the drainage radius (method.md §3).
 MeshMode choose_mode(const std::vector<PathSample>& path, double drainage_radius);
 
-/// Rings on the host's horizons from top to base.
-TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path);
+/// A tube that is there already, which another one must not touch.
+struct Neighbour {
+  const RadialMesh* mesh = nullptr;  ///< real
+  double radius = 0.0;               ///< m
+};
 
-/// Rings normal to the path over the longest stretch that keeps clear of the grid's outside.
-TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path);
+/// How far a swept tube stays away from what it may not cross, in drainage radii.
+struct Gaps {
+  double outside = 0.2;   ///< top, base and sides of the grid, where the cavity is mirrored
+  double obstacle = 1.2;  ///< faults and places without thickness, where the cavity has a wall
+  double tube = 0.6;      ///< between two tubes, in the smaller of the two radii
+};
+
+/// The parts of the path that a tube may follow, in measured depth, each at least one drainage radius long: inside the
+/// grid, in one fault block, clear of its outside and of other tubes, in what is open and one drainage radius beyond.
+std::vector<MeasuredDepthRange> clear_stretches(const HostFrame& frame, const Well& well,
+                                                const std::vector<PathSample>& path, const Obstacles& obstacles,
+                                                const std::vector<Neighbour>& neighbours, const Gaps& gaps);
+
+/// Rings on the grid's horizons from top to base.
+TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const std::vector<PathSample>& path,
+                                const Obstacles& obstacles);
+
+/// Rings normal to the path over a stretch of it. Fewer rings than asked for where they would be too thin.
+TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const MeasuredDepthRange& stretch);
 
 }  // namespace wellknit

@@ -68,6 +68,11 @@ constexpr std::array<std::pair<std::string_view, MeshMode>, 3> mesh_modes{
     {{"auto", MeshMode::automatic}, {"layered", MeshMode::layered}, {"swept", MeshMode::swept}}};
 constexpr std::array<std::pair<std::string_view, MappingMethod>, 2> mapping_methods{
     {{"auto", MappingMethod::automatic}, {"paper", MappingMethod::paper}}};
+constexpr std::array<std::pair<std::string_view, FaultPolicy>, 2> fault_policies{
+    {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
+
+constexpr std::array<std::pair<std::string_view, ProgressStyle>, 3> progress_styles{
+    {{"auto", ProgressStyle::automatic}, {"plain", ProgressStyle::plain}, {"off", ProgressStyle::off}}};
 
 template <class Value, std::size_t size>
 std::string_view name_in(Value value, const std::array<std::pair<std::string_view, Value>, size>& table) {
@@ -99,18 +104,36 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+/// auto -1, off 0, else how often columns are split in two.
+int refinement_levels(const std::string& text) {
+  if (text == "auto") return -1;
+  if (text == "off") return 0;
+  const int levels = count_from(1, text);
+  if (levels > 10) throw UsageError(fmt::format("expected auto, off or 1 to 10, found '{}'", text));
+  return levels;
+}
+
 bool is_true(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
   throw UsageError(fmt::format("expected true or false, found '{}'", text));
 }
 
-OutputRequest parse_write(const std::string& text) {
-  const std::size_t equal = text.find('=');
-  if (equal == std::string::npos || equal == 0 || equal + 1 == text.size()) {
-    throw UsageError(fmt::format("expected FORMAT=PATH, found '{}'", text));
+/// Where the first `,key=` of an output begins; the text's length where there is none.
+std::size_t first_key(const std::string& text) {
+  for (std::size_t comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1)) {
+    const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", comma + 1);
+    if (end != std::string::npos && end > comma + 1 && text[end] == '=') return comma;
   }
-  return {text.substr(0, equal), text.substr(equal + 1)};
+  return text.size();
+}
+
+void set_output_keys(OutputRequest& output, const std::string& text) {
+  for (const std::string& part : split(text, ',')) {
+    const std::size_t equal = part.find('=');
+    if (equal == std::string::npos) throw UsageError(fmt::format("expected key=value, found '{}'", part));
+    set_output_key(output, part.substr(0, equal), part.substr(equal + 1));
+  }
 }
 
 /// True where `key` is one of the radial mesh.
@@ -174,20 +197,28 @@ constexpr std::array options{
                 set_default<"segments">},
     BuildOption{"mode", "auto|layered|swept", "How the radial mesh follows the well [auto]", Kind::value,
                 set_default<"mode">},
-    BuildOption{"refine", "auto|off", "Refinement of the host; this version never refines", Kind::value,
-                [](BuildRequest&, const std::string& v) {
-                  accept_only(v, {"auto", "off"}, "a number of levels is");
-                }},
-    BuildOption{"fault-policy", "stop", "What a well does at a fault: it stops", Kind::value,
-                [](BuildRequest&, const std::string& v) { accept_only(v, {"stop"}, "heal is"); }},
+    BuildOption{"refine", "auto|off|N",
+                "Splitting of the host's columns near wells: by their radii, never, or N times in two [auto]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.refinement_levels = refinement_levels(v); }},
+    BuildOption{"fault-policy", "stop|heal",
+                "Small throws near wells: the wells stop there, or they are averaged out before [stop]", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.fault_policy = choice(v, fault_policies); }},
+    BuildOption{"heal-throw", "M",
+                "With --fault-policy heal: the largest throw to heal, m [a tenth of the layers' mean thickness there]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.heal_throw = length_above_zero(v); }},
     BuildOption{"metric", "geometric", "Metric of the reference space", Kind::value,
                 [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
     BuildOption{"output", "OUT.h5", "The mesh file", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.output = not_empty(v, "a file"); }},
-    BuildOption{"write", "FORMAT=PATH", "A further output; `wellknit formats` lists the formats", Kind::list,
+    BuildOption{"write", "FORMAT=PATH[,key=value...]",
+                "A further output; `wellknit formats` lists the formats and their keys", Kind::list,
                 [](BuildRequest& r, const std::string& v) { r.writes.push_back(parse_write(v)); }},
+    BuildOption{"report", "REPORT.html", "The quality report as a page", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.report = not_empty(v, "a file"); }},
+    BuildOption{"progress", "auto|plain|off", "How far the run is: a line on a terminal, a line a step, nothing [auto]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.progress = choice(v, progress_styles); }},
     BuildOption{"threads", "N", "Threads [all]; the result does not depend on it", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.threads = count_from(1, v); }},
     BuildOption{"overwrite", "", "Replace outputs that exist", Kind::flag,
@@ -304,6 +335,46 @@ WellRequest parse_well(const std::string& text) {
   return well;
 }
 
+const WriterFormat& format_named(const std::string& name) {
+  if (const WriterFormat* format = find_writer(name)) return *format;
+  std::string names;
+  for (const WriterFormat& format : writer_formats()) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  throw UsageError(fmt::format("unknown format '{}'; the formats are {}", name, names));
+}
+
+void set_output_key(OutputRequest& output, std::string_view key, const std::string& value) {
+  const std::string_view format = format_named(output.format).name;
+  std::string names;
+  for (const WriterKey& known : writer_keys(format)) {
+    if (known.name == key) {
+      if (known.set(output.options, value)) return;
+      throw UsageError(fmt::format("{}: {}: expected {}, found '{}'", format, key, known.values, value));
+    }
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  throw UsageError(fmt::format("{}: unknown key '{}'; {}", format, key,
+                               names.empty() ? "this format has none" : "its keys are " + names));
+}
+
+OutputRequest parse_write(const std::string& text) {
+  const std::size_t equal = text.find('=');
+  const std::size_t keys = first_key(text);
+  if (equal == std::string::npos || equal == 0 || equal + 1 >= keys) {
+    throw UsageError(fmt::format("expected FORMAT=PATH[,key=value...], found '{}'", text));
+  }
+  OutputRequest output{text.substr(0, equal), text.substr(equal + 1, keys - equal - 1)};
+  if (keys < text.size()) set_output_keys(output, text.substr(keys + 1));
+  return output;
+}
+
+OutputRequest parse_format(const std::string& text, const std::string& path) {
+  const std::size_t comma = text.find(',');
+  OutputRequest output{text.substr(0, comma), path};
+  format_named(output.format);
+  if (comma != std::string::npos) set_output_keys(output, text.substr(comma + 1));
+  return output;
+}
+
 BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   BuildRequest out = given;
   take(out.case_path, fallback.case_path);
@@ -312,8 +383,13 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   take(out.deck_wells, fallback.deck_wells);
   out.radial = overlay(given.radial, fallback.radial);
   take(out.mapping, fallback.mapping);
+  take(out.refinement_levels, fallback.refinement_levels);
+  take(out.fault_policy, fallback.fault_policy);
+  take(out.heal_throw, fallback.heal_throw);
   take(out.writes, fallback.writes);
   take(out.output, fallback.output);
+  take(out.report, fallback.report);
+  if (out.progress == ProgressStyle::automatic) out.progress = fallback.progress;
   take(out.threads, fallback.threads);
   out.overwrite = given.overwrite || fallback.overwrite;
   out.quiet = given.quiet || fallback.quiet;
@@ -326,6 +402,8 @@ void validate(const BuildRequest& request) {
   if (!request.case_path) throw UsageError("no CASE given: name a deck, a grid or a run file");
   if (!request.output && request.writes.empty())
     throw UsageError("no output given: add -o OUT.h5 or --write FORMAT=PATH");
+  if (request.heal_throw && request.fault_policy != FaultPolicy::heal)
+    throw UsageError("--heal-throw says how far --fault-policy heal goes: add that, or leave out --heal-throw");
   for (const WellRequest& well : request.wells) {
     const RadialOptions radial = resolve(well.radial, request.radial, RadialOptions{});
     if (radial.bore_radius >= radial.drainage_radius) {
@@ -358,9 +436,14 @@ std::string config_text(const BuildRequest& request) {
   if (!request.deck_wells.empty()) table.insert("deck-wells", array_of(request.deck_wells));
   insert(table, with_defaults(request.radial));
   table.insert("mapping", name_of(request.mapping.value_or(MappingMethod::automatic)));
-  table.insert("fault-policy", "stop");
+  table.insert("fault-policy", name_of(request.fault_policy.value_or(FaultPolicy::stop)));
+  insert(table, "heal-throw", request.heal_throw);
   table.insert("metric", "geometric");
-  table.insert("refine", "off");
+  const int levels = request.refinement_levels.value_or(-1);
+  if (levels > 0)
+    table.insert("refine", levels);
+  else
+    table.insert("refine", levels < 0 ? "auto" : "off");
   toml::array wells;
   for (const WellRequest& well : request.wells) {
     toml::table entry;
@@ -384,5 +467,7 @@ std::string config_text(const BuildRequest& request) {
 std::string_view name_of(MeshMode mode) { return name_in(mode, mesh_modes); }
 
 std::string_view name_of(MappingMethod mapping) { return name_in(mapping, mapping_methods); }
+
+std::string_view name_of(FaultPolicy policy) { return name_in(policy, fault_policies); }
 
 }  // namespace wellknit

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "algorithm/build_mesh.h"
+#include "cli/progress.h"
 #include "model/well.h"
 #include "readers/read_trajectory.h"
+#include "writers/formats.h"
 
 namespace wellknit {
 
@@ -41,7 +43,20 @@ struct WellRequest {
 struct OutputRequest {
   std::string format;  ///< a name of the table of writers; "hdf5" for -o
   std::string path;
+  WriterOptions options = {};  ///< of that format
 };
+
+/// By a name of the table of writers. Throws UsageError with all names where there is none of this one.
+const WriterFormat& format_named(const std::string& name);
+
+/// Sets what `key=value` of an output says. Throws UsageError, with the format's keys where it has none of this name.
+void set_output_key(OutputRequest& output, std::string_view key, const std::string& value);
+
+/// `FORMAT=PATH[,key=value…]`; a comma that is followed by no `key=` is part of the path. Throws UsageError.
+OutputRequest parse_write(const std::string& text);
+
+/// `FORMAT[,key=value…]`, of the output `path`. Throws UsageError.
+OutputRequest parse_format(const std::string& text, const std::string& path);
 
 /// Empty members were not given.
 struct BuildRequest {
@@ -51,8 +66,13 @@ struct BuildRequest {
   std::vector<std::string> deck_wells;  ///< names, or the one word "all"
   RadialChoice radial;                  ///< for every well that does not say otherwise
   std::optional<MappingMethod> mapping;
+  std::optional<int> refinement_levels;  ///< 0 off, -1 auto
+  std::optional<FaultPolicy> fault_policy;
+  std::optional<double> heal_throw;  ///< m
   std::vector<OutputRequest> writes;
   std::optional<std::string> output;
+  std::optional<std::string> report;  ///< the quality report, a page
+  ProgressStyle progress = ProgressStyle::automatic;
   std::optional<int> threads;
   bool overwrite = false;
   bool quiet = false;
@@ -95,5 +115,6 @@ std::string config_text(const BuildRequest& request);
 
 std::string_view name_of(MeshMode mode);
 std::string_view name_of(MappingMethod mapping);
+std::string_view name_of(FaultPolicy policy);
 
 }  // namespace wellknit

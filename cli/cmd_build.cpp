@@ -19,14 +19,19 @@
 #include "cli/build_request.h"
 #include "cli/commands.h"
 #include "cli/output_set.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/run_file.h"
 #include "cli/usage_error.h"
+#include "conversion/convert_deck.h"
+#include "model/assessment.h"
 #include "model/errors.h"
 #include "readers/file_content.h"
 #include "readers/fit_to_grid.h"
 #include "readers/read_case.h"
 #include "readers/read_trajectory.h"
+#include "readers/whole_deck.h"
+#include "report/write_report.h"
 
 namespace wellknit {
 
@@ -34,7 +39,8 @@ namespace {
 
 /// Options that change neither the mesh nor its wells: they stay out of the mesh file, so that it is the same for all
 /// of them.
-constexpr std::array outside_the_mesh{"output", "write", "threads", "overwrite", "quiet", "json", "strict"};
+constexpr std::array outside_the_mesh{"output",    "write", "report", "progress", "threads",
+                                      "overwrite", "quiet", "json",   "strict"};
 
 class Stopwatch {
  public:
@@ -101,8 +107,23 @@ std::vector<OutputRequest> outputs_of(const BuildRequest& request) {
   return outputs;
 }
 
-std::vector<std::string> inputs_of(const BuildRequest& request) {
+/// CASE where it is a whole deck that is to be written on the mesh. Refuses what cannot be converted.
+std::optional<WholeDeck> deck_to_convert(const BuildRequest& request) {
+  const auto is_deck = [](const OutputRequest& output) {
+    const WriterFormat* format = find_writer(output.format);
+    return format != nullptr && format->name == "deck";
+  };
+  if (std::ranges::none_of(request.writes, is_deck)) return std::nullopt;
+  DiskFiles files;
+  auto deck = read_whole_deck(files, *request.case_path);
+  if (deck) refuse_what_cannot_be_converted(*deck);
+  return deck;
+}
+
+std::vector<std::string> inputs_of(const BuildRequest& request, const std::optional<WholeDeck>& deck) {
   std::vector<std::string> inputs{*request.case_path};
+  if (deck)
+    for (const DeckTextFile& file : deck->files) inputs.push_back(file.content.path);
   inputs.insert(inputs.end(), request.grid_includes.begin(), request.grid_includes.end());
   for (const WellRequest& well : request.wells) inputs.push_back(well.file);
   return inputs;
@@ -189,12 +210,14 @@ struct Inputs {
   std::vector<std::string> notes;
 };
 
-Inputs read_inputs(const BuildRequest& request) {
+Inputs read_inputs(const BuildRequest& request, bool converts_deck) {
   Inputs in;
   in.source = read_case(*request.case_path, request.grid_includes);
   in.files = in.source.sources;
   in.notes = in.source.notes;
   in.wells = chosen_deck_wells(request, in.source);
+  if (converts_deck)
+    for (Well& well : in.wells) open_all_completions(in.source.grid, well);
   std::set<std::string> hashed;
   for (const WellRequest& well : request.wells) {
     TrajectoryFile file = read_trajectory(well.file, {well.head, false});
@@ -243,28 +266,57 @@ void require_all_meshed(const BuildSummary& summary) {
   throw InvalidInput(fmt::format("--strict: not meshed: {}; {}: {}", names, first->name, first->reason));
 }
 
+/// The report, with what the run knows so far; the time of writing is not among it.
+std::string page_of(const BuildRequest& request, const Mesh& mesh, const Provenance& provenance,
+                    const BuildReport& report) {
+  const std::string name = request.output.value_or(*request.case_path);
+  const Assessment assessment = assess(mesh, {});
+  return report_html({mesh, provenance, assessment, name, program_and_version(),
+                      parse_build_facts(to_json(report), "the summary of this run")});
+}
+
 int build(const GivenRequest& given) {
   const BuildRequest request = complete(given.request);
-  OutputSet outputs(outputs_of(request), inputs_of(request), request.overwrite);
+  const std::optional<WholeDeck> deck = deck_to_convert(request);
+  OwnOutputs own;
+  own.has_deck_folders = deck.has_value();
+  if (request.report) own.page = {"report", *request.report};
+  const OutputSet outputs(outputs_of(request), inputs_of(request, deck), request.overwrite, own);
   std::optional<tbb::global_control> threads;
   if (request.threads) {
     threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(*request.threads));
   }
 
+  Progress progress(request.quiet ? ProgressStyle::off : request.progress, {"read", "mesh", "quality", "write"});
   Stopwatch watch;
-  const Inputs in = read_inputs(request);
+  progress.next();
+  const Inputs in = read_inputs(request, deck.has_value());
   std::vector<StepTime> times{{"read", watch.lap()}};
-  const BuildOptions options{request.mapping.value_or(MappingMethod::automatic), request.threads.value_or(0)};
+  const BuildOptions options{request.mapping.value_or(MappingMethod::automatic), request.threads.value_or(0),
+                             request.refinement_levels.value_or(-1), request.fault_policy.value_or(FaultPolicy::stop),
+                             request.heal_throw};
+  progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);
   times.insert(times.end(), result.summary.times.begin(), result.summary.times.end());
   watch.lap();
 
+  progress.next();
   BuildReport report = make_report(request, in, result);
   times.push_back({"quality", watch.lap()});
-  report.files = outputs.write(result.mesh, {program_and_version(), given.command, config_text(request), in.files});
-  times.push_back({"write", watch.lap()});
   report.times = std::move(times);
+  progress.next();
+  const Provenance provenance{program_and_version(), given.command, config_text(request), in.files};
+  std::vector<bool> meshed;
+  for (const WellSummary& well : result.summary.wells) meshed.push_back(well.meshed);
+  const DeckOutput write_deck = [&](const std::string& file, const std::string& folder, const std::string& name) {
+    report.conversion = convert_deck({*deck, in.source, in.wells, meshed, result.mesh}, {file, folder, name});
+    return std::vector<std::string>{fmt::format("{} beside it holds what it includes", name)};
+  };
+  const auto page = [&] { return page_of(request, result.mesh, provenance, report); };
+  report.files = outputs.write(result.mesh, provenance, {&in.source.grid, write_deck, page});
+  report.times.push_back({"write", watch.lap()});
+  progress.next();
   if (request.json) {
     std::cout << to_json(report);
   } else if (!request.quiet) {

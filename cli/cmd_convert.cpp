@@ -7,6 +7,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "algorithm/build_mesh.h"
 #include "cli/commands.h"
@@ -26,23 +27,39 @@ struct ConvertRequest {
   std::string in;
   std::string out;
   std::string format;
+  std::string source;
   bool overwrite = false;
   bool quiet = false;
 };
 
 OutputRequest output_of(const ConvertRequest& request) {
-  if (!request.format.empty()) return {request.format, request.out};
+  if (!request.format.empty()) return parse_format(request.format, request.out);
   if (const WriterFormat* format = writer_of_path(request.out)) return {std::string(format->name), request.out};
   throw UsageError(fmt::format("{}: no format has this extension; give --to FORMAT", request.out));
 }
 
+/// A mesh and, where it is known, the grid that it was made from.
+struct Loaded {
+  MeshFile file;
+  std::optional<Case> source;
+};
+
 /// A mesh file as it is; a grid as the host alone.
-MeshFile load(const std::string& path) {
+Loaded load(const std::string& path, const std::string& source_path) {
   switch (recognise_file(path).kind) {
-    case FormatKind::mesh: return read_mesh(path);
+    case FormatKind::mesh: {
+      Loaded out{read_mesh(path), std::nullopt};
+      if (!source_path.empty()) out.source = read_case(source_path);
+      return out;
+    }
     case FormatKind::grid: {
-      const Case source = read_case(path);
-      return {build_mesh(source, {}, {}).mesh, {program_and_version(), "wellknit convert " + path, "", source.sources}};
+      if (!source_path.empty()) throw UsageError("--source belongs to a mesh file; " + path + " is a grid itself");
+      Case source = read_case(path);
+      Loaded out{
+          {build_mesh(source, {}, {}).mesh, {program_and_version(), "wellknit convert " + path, "", source.sources}},
+          std::nullopt};
+      out.source = std::move(source);
+      return out;
     }
     case FormatKind::wells: break;
   }
@@ -50,9 +67,12 @@ MeshFile load(const std::string& path) {
 }
 
 int convert(const ConvertRequest& request) {
-  const OutputSet outputs({output_of(request)}, {request.in}, request.overwrite);
-  const MeshFile file = load(request.in);
-  for (const WrittenFile& written : outputs.write(file.mesh, file.provenance)) {
+  std::vector<std::string> inputs{request.in};
+  if (!request.source.empty()) inputs.push_back(request.source);
+  const OutputSet outputs({output_of(request)}, inputs, request.overwrite);
+  const Loaded in = load(request.in, request.source);
+  const OutputSources sources{in.source ? &in.source->grid : nullptr};
+  for (const WrittenFile& written : outputs.write(in.file.mesh, in.file.provenance, sources)) {
     if (!request.quiet) std::cout << to_text(written);
   }
   return 0;
@@ -64,8 +84,11 @@ Run add_convert(CLI::App& app) {
   const auto request = std::make_shared<ConvertRequest>();
   app.add_option("IN", request->in, "A mesh file, or a deck or grid (the host alone)")->required()->type_name("FILE");
   app.add_option("OUT", request->out, "The output")->required()->type_name("FILE");
-  app.add_option("--to", request->format, "A format of `wellknit formats`; by default that of OUT's extension")
-      ->type_name("FORMAT");
+  app.add_option("--to", request->format,
+                 "A format of `wellknit formats`, with its keys; by default that of OUT's extension")
+      ->type_name("FORMAT[,key=value...]");
+  app.add_option("--source", request->source, "The grid that the mesh file IN was made from, for outputs that keep it")
+      ->type_name("CASE");
   app.add_flag("--overwrite", request->overwrite, "Replace OUT if it exists");
   app.add_flag("--quiet", request->quiet, "No output but errors");
   return [request] { return convert(*request); };

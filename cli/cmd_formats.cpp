@@ -67,6 +67,15 @@ std::string plain_table(const char* title, const std::vector<Row>& rows) {
   return text;
 }
 
+std::string key_table() {
+  std::string text =
+      "keys (--write FORMAT=PATH,key=value; convert --to FORMAT,key=value; the first value is the default)\n";
+  for (const WriterFormat& format : writer_formats())
+    for (const WriterKey& key : writer_keys(format.name))
+      text += fmt::format("  {:<11}  {}={}  {}\n", format.name, key.name, key.values, key.description);
+  return text;
+}
+
 std::string markdown_rows(const char* way, const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
@@ -84,7 +93,7 @@ std::string markdown() {
 
 std::string plain() {
   std::string text = plain_table("readers (recognised by content, then by extension)", reader_rows(true)) + "\n" +
-                     plain_table("writers (--write FORMAT=PATH)", writer_rows());
+                     plain_table("writers (--write FORMAT=PATH)", writer_rows()) + "\n" + key_table();
   const std::vector<Row> later = reader_rows(false);
   return later.empty() ? text : text + "\n" + plain_table("recognised, but not read by this version", later);
 }

@@ -20,7 +20,13 @@ Run add_build(CLI::App& app);
 Run add_check(CLI::App& app);
 Run add_info(CLI::App& app);
 Run add_convert(CLI::App& app);
+Run add_report(CLI::App& app);
+Run add_solve(CLI::App& app);
+Run add_map(CLI::App& app);
+Run add_compare(CLI::App& app);
 Run add_formats(CLI::App& app);
+Run add_completion(CLI::App& app);
+Run add_manual(CLI::App& app);
 
 /// The program with all its commands.
 class Program {

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "cli/interruption.h"
+#include "cli/terminal.h"
 #include "cli/usage_error.h"
 
 namespace {
@@ -19,7 +21,7 @@ constexpr int usage_error = 2;
 
 int complain(std::string message, int exit_code) {
   std::ranges::replace(message, '\n', ' ');
-  std::cerr << "wellknit: " << message << '\n';
+  std::cerr << wellknit::painted("wellknit:", wellknit::Ink::poor, wellknit::Stream::error) << ' ' << message << '\n';
   return exit_code;
 }
 
@@ -27,6 +29,7 @@ int complain(std::string message, int exit_code) {
 
 int main(int argc, char** argv) {
   try {
+    wellknit::handle_interruptions();
     wellknit::Program program;
     try {
       const int exit_code = program.run(argc, argv);

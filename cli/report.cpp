@@ -143,20 +143,32 @@ void write_times(Text out, const BuildReport& report) {
   fmt::format_to(out, "\n");
 }
 
+Json json_of(const TubeSummary& tube) {
+  return {{"from", tube.range.from},
+          {"to", tube.range.to},
+          {"mode", tube.mode},
+          {"drainage_radius", tube.drainage_radius},
+          {"cavity", tube.cavity}};
+}
+
 Json json_of(const WellSummary& well) {
-  return {{"name", well.name},
-          {"meshed", well.meshed},
-          {"mode", well.mode},
-          {"reason", well.reason},
-          {"cavity", well.cavity},
-          {"radial_cells", well.radial_cells},
-          {"segments", well.segments},
-          {"drainage_radius", well.drainage_radius},
-          {"length_in_rock", well.length_in_rock},
-          {"length_meshed", well.length_meshed},
-          {"connections", well.connections},
-          {"index_connections", well.index_connections},
-          {"notes", well.notes}};
+  Json json{{"name", well.name},
+            {"meshed", well.meshed},
+            {"mode", well.mode},
+            {"reason", well.reason},
+            {"cavity", well.cavity},
+            {"radial_cells", well.radial_cells},
+            {"segments", well.segments},
+            {"radius_wanted", well.radius_wanted},
+            {"drainage_radius", well.drainage_radius},
+            {"length_in_rock", well.length_in_rock},
+            {"length_meshed", well.length_meshed},
+            {"connections", well.connections},
+            {"index_connections", well.index_connections}};
+  json["tubes"] = Json::array();
+  for (const TubeSummary& tube : well.tubes) json["tubes"].push_back(json_of(tube));
+  json["notes"] = well.notes;
+  return json;
 }
 
 Json json_of(const CavitySummary& cavity) {
@@ -171,6 +183,9 @@ Json json_of(const CavitySummary& cavity) {
           {"inverted_tetrahedra", cavity.inverted_tetrahedra},
           {"loops", cavity.loops},
           {"points_inserted", cavity.points_inserted},
+          {"cells_closed_after_mapping", cavity.cells_closed_after_mapping},
+          {"vertices_moved", cavity.vertices_moved},
+          {"cells_merged", cavity.cells_merged},
           {"cells_not_seen_from_centre", cavity.cells_not_seen_from_centre}};
 }
 
@@ -182,6 +197,33 @@ std::string to_text(const WrittenFile& file) {
   for (const std::string& note : file.notes) text += fmt::format("  {}\n", note);
   return text;
 }
+
+namespace {
+
+std::string to_text(const ConversionReport& report) {
+  std::string text;
+  for (const ConversionEntry& entry : report.entries) {
+    const std::string where = entry.line > 0 ? fmt::format(" ({}:{})", entry.file, entry.line) : "";
+    text += fmt::format("deck        {:<11} {:<8} {:>5}  {}{}\n", entry.action, entry.keyword, entry.count,
+                        entry.detail, where);
+  }
+  for (const std::string& note : report.notes) text += fmt::format("deck        {}\n", note);
+  return text;
+}
+
+Json json_of(const ConversionReport& report) {
+  Json json{{"entries", Json::array()}, {"notes", report.notes}};
+  for (const ConversionEntry& entry : report.entries)
+    json["entries"].push_back({{"keyword", entry.keyword},
+                               {"action", entry.action},
+                               {"count", entry.count},
+                               {"detail", entry.detail},
+                               {"file", entry.file},
+                               {"line", entry.line}});
+  return json;
+}
+
+}  // namespace
 
 std::string to_text(const BuildReport& report) {
   std::string text;
@@ -195,6 +237,7 @@ std::string to_text(const BuildReport& report) {
   for (const std::string& line : to_lines(report.build.validity)) fmt::format_to(out, "grid        {}\n", line);
   for (const std::string& note : report.notes) fmt::format_to(out, "note        {}\n", note);
   for (const std::string& note : report.build.notes) fmt::format_to(out, "note        {}\n", note);
+  if (report.conversion) text += to_text(*report.conversion);
   write_times(out, report);
   for (const WrittenFile& file : report.files) text += to_text(file);
   return text;
@@ -217,6 +260,7 @@ std::string to_json(const BuildReport& report) {
   json["times"] = Json::array();
   for (const StepTime& time : report.times) json["times"].push_back({{"step", time.step}, {"seconds", time.seconds}});
   json["seconds"] = total_seconds(report.times);
+  if (report.conversion) json["conversion"] = json_of(*report.conversion);
   json["outputs"] = Json::array();
   for (const WrittenFile& file : report.files) {
     json["outputs"].push_back(

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "algorithm/build_mesh.h"
+#include "conversion/conversion_report.h"
 #include "model/quality.h"
 
 namespace wellknit {
@@ -29,7 +31,8 @@ struct BuildReport {
   double pore_volume = 0.0;     ///< m3, of the mesh
   std::vector<StepTime> times;  ///< of the whole run: reading, the steps of the mesh, writing
   std::vector<WrittenFile> files;
-  std::vector<std::string> notes;  ///< of the readers
+  std::vector<std::string> notes;              ///< of the readers
+  std::optional<ConversionReport> conversion;  ///< of the whole deck
 };
 
 /// "wrote …" and what its user must know; ends with a line feed.

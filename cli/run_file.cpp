@@ -66,12 +66,37 @@ void read_well(const Place& place, BuildRequest& request) {
   request.wells.push_back(std::move(well));
 }
 
+/// A path, or a table with `path` and the format's keys.
+OutputRequest read_output(const std::string& format, const Place& place) {
+  const toml::table* entry = place.node.as_table();
+  if (entry == nullptr) return {format, spelled(place)};
+  OutputRequest output{format, ""};
+  for (const auto& [name, node] : *entry) {
+    const std::string key(name.str());
+    const Place here{place.file, node, place.key + "." + key};
+    const std::string value = spelled(here);
+    if (key == "path") {
+      output.path = value;
+    } else {
+      set_at(here, [&] { set_output_key(output, key, value); });
+    }
+  }
+  if (output.path.empty()) place.fail("expected path = \"…\" with the output's place");
+  return output;
+}
+
 void read_writes(const Place& place, BuildRequest& request) {
   const toml::table* formats = place.node.as_table();
   if (formats == nullptr) place.fail("expected a table: [write] with FORMAT = \"PATH\"");
-  for (const auto& [format, node] : *formats) {
-    request.writes.push_back(
-        {std::string(format.str()), spelled({place.file, node, fmt::format("write.{}", format.str())})});
+  for (const auto& [name, node] : *formats) {
+    const std::string format(name.str());
+    const std::string key = "write." + format;
+    const toml::array* outputs = node.as_array();
+    if (outputs == nullptr) {
+      request.writes.push_back(read_output(format, {place.file, node, key}));
+      continue;
+    }
+    for (const toml::node& output : *outputs) request.writes.push_back(read_output(format, {place.file, output, key}));
   }
 }
 

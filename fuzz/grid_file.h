@@ -33,7 +33,12 @@ inline void fuzz_grid_file(const std::string& bytes) {
       const Case read =
           is_include ? parse_case(files, "grid", {"case.EGRID"}, limits) : parse_case(files, "case.EGRID", {}, limits);
       validate(read.grid);
-      (void)to_json({"f", "f", describe(read.grid), {}, {}, {}, read.notes, {}});
+      FileDescription description;
+      description.path = "f";
+      description.format = "f";
+      description.grid = describe(read.grid);
+      description.notes = read.notes;
+      (void)to_json(description);
     } catch (const ParseError& error) {
       require(std::string_view(error.what()).find('\n') == std::string_view::npos);
     }

@@ -37,6 +37,10 @@ struct CornerPointGrid {
   std::array<std::vector<double>, 3> permeability;  ///< along i, j, k; nx ny nz each, m2; empty: not given
   std::map<std::string, CellProperty> properties;   ///< every other per-cell keyword
 
+  /// Of properties that the source gives in some active cells only: nx ny nz, 1 where it does. The property's own array
+  /// has a default in the others.
+  std::map<std::string, std::vector<std::uint8_t>> property_given;
+
   std::optional<std::array<double, 6>> mapaxes;  ///< as in the source
   UnitSystem units = UnitSystem::metric;         ///< of the source; the arrays here are SI already
   bool connects_across_pinch = false;            ///< PINCH given: cells above and below a zero-thickness cell connect

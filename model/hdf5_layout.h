@@ -65,6 +65,7 @@ struct Element {
 inline Element element(const double*) { return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1}; }
 inline Element element(const std::int64_t*) { return {H5T_NATIVE_INT64, H5T_STD_I64LE, 1}; }
 inline Element element(const std::int32_t*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 1}; }
+inline Element element(const std::array<std::int32_t, 2>*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 2}; }
 inline Element element(const Vec3*) { return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 3}; }
 inline Element element(const std::array<double, 2>*) { return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 2}; }
 inline Element element(const std::array<double, 4>*) { return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 4}; }

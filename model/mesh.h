@@ -67,7 +67,8 @@ struct Cells {
   IdVector<CellId, double> pore_volume;  ///< m3
   IdVector<CellId, double> porosity;
   IdVector<CellId, double> net_to_gross;
-  IdVector<CellId, Vec3> permeability;             ///< m2, diagonal along x, y, depth
+  /// m2, along the cell's i, j and k; of a made cell along those of its source cells. In a level grid x, y, depth.
+  IdVector<CellId, Vec3> permeability;
   std::map<std::string, CellProperty> properties;  ///< carried over, in the units of the source; one value a cell
 
   [[nodiscard]] std::size_t size() const { return kind.size(); }
@@ -85,6 +86,9 @@ struct Connections {
   IdVector<ConnectionId, double> planarity;
   IdVector<ConnectionId, ConnectionKind> kind;
   IdVector<ConnectionId, double> multiplier;  ///< already inside the transmissibility
+  /// Error of the flux of a linear pressure with a slope along x, y, depth, without multiplier, over the flux |K n| A;
+  /// 0 without a face. Empty: not known (a mesh file without it).
+  IdVector<ConnectionId, Vec3> linear_flux_error;
 
   [[nodiscard]] std::size_t size() const { return cells.size(); }
 };
@@ -113,6 +117,22 @@ struct Transfer {
   std::vector<double> fraction;  ///< of the source cell's bulk volume; an active cell's add up to 1
 };
 
+/// Volumes of the source cells, m3, nx ny nz each. Empty: not known (a mesh file without them).
+struct SourceVolumes {
+  std::vector<double> bulk;
+  std::vector<double> pores;  ///< 0 where the cell is not active
+};
+
+/// Steady flow through the mesh, as `wellknit solve` computes it.
+struct FlowSolution {
+  IdVector<CellId, double> pressure;         ///< Pa; not a number in parts of the mesh where nothing holds a pressure
+  IdVector<ConnectionId, double> flux;       ///< m3/s, positive from the first cell to the second
+  IdVector<WellId, double> well_pressure;    ///< Pa, in the bore at its reference depth; not a number where shut
+  IdVector<WellId, double> well_rate;        ///< m3/s, positive out of the rock
+  std::vector<double> well_connection_rate;  ///< m3/s, positive into the bore; the wells' connections one after another
+  std::string command;                       ///< what was asked for
+};
+
 struct Mesh {
   IdVector<VertexId, Vec3> vertices;
   Faces faces;
@@ -120,6 +140,8 @@ struct Mesh {
   Connections connections;
   IdVector<WellId, MeshWell> wells;
   Transfer transfer;
+  SourceVolumes source_volumes;
+  std::optional<FlowSolution> flow;
   std::array<std::int64_t, 3> source_dimensions{};
   std::optional<std::array<double, 6>> mapaxes;
   UnitSystem source_units = UnitSystem::metric;

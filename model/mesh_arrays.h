@@ -49,4 +49,27 @@ void for_each_transfer_array(MeshType& mesh, Visitor&& visit) {
   visit("transfer/fraction", mesh.transfer.fraction);
 }
 
+/// The volumes of the source cells, which older files do not have.
+template <class MeshType, class Visitor>
+void for_each_source_volume(MeshType& mesh, Visitor&& visit) {
+  visit("transfer/source_volume", mesh.source_volumes.bulk);
+  visit("transfer/source_pore_volume", mesh.source_volumes.pores);
+}
+
+/// What later versions added to the connections; older files do not have it.
+template <class MeshType, class Visitor>
+void for_each_added_array(MeshType& mesh, Visitor&& visit) {
+  visit("connections/linear_flux_error", mesh.connections.linear_flux_error.raw());
+}
+
+/// Of a solution (`mesh.flow`), which most files do not have.
+template <class FlowType, class Visitor>
+void for_each_flow_array(FlowType& flow, Visitor&& visit) {
+  visit("flow/pressure", flow.pressure.raw());
+  visit("flow/flux", flow.flux.raw());
+  visit("flow/well_pressure", flow.well_pressure.raw());
+  visit("flow/well_rate", flow.well_rate.raw());
+  visit("flow/well_connection_rate", flow.well_connection_rate);
+}
+
 }  // namespace wellknit

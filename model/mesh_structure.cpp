@@ -23,6 +23,7 @@ class StructureCheck {
     connections();
     wells();
     transfer();
+    flow();
     return std::move(violations_);
   }
 
@@ -97,6 +98,8 @@ class StructureCheck {
 
   void connections() {
     const Connections& connections = mesh_.connections;
+    if (!connections.linear_flux_error.empty())
+      expect_length("connections/linear_flux_error", connections.linear_flux_error.size(), connections.size());
     for (std::size_t i = 0; i < connections.cells.size(); ++i)
       for (const CellId cell : connections.cells[ConnectionId(i)])
         expect_index(cell.value(), 0, mesh_.cells.size(), "connections/cells", i);
@@ -127,6 +130,21 @@ class StructureCheck {
     expect_length("transfer/fraction", transfer.fraction.size(), transfer.cell.size());
     for (std::size_t i = 0; i < transfer.cell.size(); ++i)
       expect_index(transfer.cell[i].value(), 0, mesh_.cells.size(), "transfer/cell", i);
+    const auto& [bulk, pores] = mesh_.source_volumes;
+    if (bulk.empty() && pores.empty()) return;
+    expect_length("transfer/source_volume", bulk.size(), transfer.start.size() - 1);
+    expect_length("transfer/source_pore_volume", pores.size(), transfer.start.size() - 1);
+  }
+
+  void flow() {
+    if (!mesh_.flow) return;
+    expect_length("flow/pressure", mesh_.flow->pressure.size(), mesh_.cells.size());
+    expect_length("flow/flux", mesh_.flow->flux.size(), mesh_.connections.size());
+    expect_length("flow/well_pressure", mesh_.flow->well_pressure.size(), mesh_.wells.size());
+    expect_length("flow/well_rate", mesh_.flow->well_rate.size(), mesh_.wells.size());
+    std::size_t connections = 0;
+    for (const MeshWell& well : mesh_.wells) connections += well.connections.size();
+    expect_length("flow/well_connection_rate", mesh_.flow->well_connection_rate.size(), connections);
   }
 
   const Mesh& mesh_;

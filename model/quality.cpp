@@ -28,25 +28,59 @@ double quantile(std::vector<double>& sample, double q) {
   return low + (place - static_cast<double>(below)) * (high - low);
 }
 
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// Share of the weights in each class; empty where they add up to nothing.
+std::vector<double> shares(const std::vector<double>& values, const std::vector<double>& weights,
+                           std::span<const double> classes) {
+  const double total = sum(weights);
+  if (!(total > 0.0)) return {};
+  std::vector<double> out(classes.size(), 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto above = std::upper_bound(classes.begin() + 1, classes.end(), values[i]);
+    out[static_cast<std::size_t>(above - classes.begin()) - 1] += weights[i] / total;
+  }
+  return out;
+}
+
 struct Sample {
   std::vector<double> values;
   std::vector<double> areas;
+  std::vector<double> flows;  ///< m3/s without sign; 0 without a solution
 
-  void add(double value, double area) {
+  void add(double value, double area, double flow) {
     values.push_back(value);
     areas.push_back(area);
+    flows.push_back(flow);
   }
-  Distribution distribution() {
+  Distribution distribution(FaceMeasure measure) {
     Distribution out;
     if (values.empty()) return out;
-    out.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-    out.area_mean = std::inner_product(values.begin(), values.end(), areas.begin(), 0.0) /
-                    std::accumulate(areas.begin(), areas.end(), 0.0);
+    const auto weighted = [&](const std::vector<double>& weights) {
+      return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) / sum(weights);
+    };
+    out.mean = sum(values) / static_cast<double>(values.size());
+    out.area_mean = weighted(areas);
+    out.area_share = shares(values, areas, classes_of(measure));
+    out.flow_share = shares(values, flows, classes_of(measure));
+    if (!out.flow_share.empty()) out.flow_mean = weighted(flows);
     out.max = *std::max_element(values.begin(), values.end());
     out.p99 = quantile(values, 0.99);  // last: it reorders the values
     return out;
   }
 };
+
+/// Flow through each face without sign, m3/s; 0 where it is not known.
+IdVector<FaceId, double> flow_of_faces(const Mesh& mesh) {
+  IdVector<FaceId, double> out(mesh.faces.size(), 0.0);
+  if (!mesh.flow || mesh.flow->flux.size() != mesh.connections.size()) return out;
+  for (std::size_t i = 0; i < mesh.connections.size(); ++i) {
+    const FaceId face = mesh.connections.face[ConnectionId(i)];
+    const double flux = mesh.flow->flux[ConnectionId(i)];
+    if (face.is_valid() && std::isfinite(flux)) out[face] += std::abs(flux);
+  }
+  return out;
+}
 
 /// How far a vertex of the face lies from its centroid along a direction: checkMesh's measure of the face's extent.
 double extent_along(std::span<const Vec3> loop, const Vec3& centroid, const Vec3& direction) {
@@ -71,7 +105,10 @@ double skewness(std::span<const Vec3> loop, const PolygonGeometry& face, const V
 class QualityPass {
  public:
   explicit QualityPass(const Mesh& mesh)
-      : mesh_(mesh), geometry_(all_face_geometries(mesh)), smallest_area_(1e-9 * median_face_area(geometry_)) {}
+      : mesh_(mesh),
+        geometry_(all_face_geometries(mesh)),
+        flow_(flow_of_faces(mesh)),
+        smallest_area_(1e-9 * median_face_area(geometry_)) {}
 
   QualityReport run() {
     counts();
@@ -79,6 +116,8 @@ class QualityPass {
     distributions();
     cells();
     transmissibilities();
+    report_.conservation = conservation(mesh_);
+    report_.linear_flux = linear_flux_errors(mesh_);
     return report_;
   }
 
@@ -102,7 +141,7 @@ class QualityPass {
     shape(loop, face);
     const auto& [first, second] = mesh_.faces.cells[id];
     if (second.is_valid())
-      inner_face(loop, face, first, second);
+      inner_face(loop, id, first, second);
     else
       boundary_face(loop, face, first);
   }
@@ -127,7 +166,8 @@ class QualityPass {
     report_.max_boundary_skewness = std::max(report_.max_boundary_skewness, skewness(loop, face, center, line, 0.4));
   }
 
-  void inner_face(std::span<const Vec3> loop, const PolygonGeometry& face, CellId first, CellId second) {
+  void inner_face(std::span<const Vec3> loop, FaceId id, CellId first, CellId second) {
+    const PolygonGeometry& face = geometry_[id];
     const double volume_a = mesh_.cells.volume[first];
     const double volume_b = mesh_.cells.volume[second];
     report_.min_volume_ratio =
@@ -138,12 +178,13 @@ class QualityPass {
     const Vec3& b = mesh_.cells.center[second];
     const double angle = non_orthogonality(face.area_vector, b - a);
     const FacePair pair = face_pair(mesh_.cells.kind[first], mesh_.cells.kind[second]);
-    angles_[static_cast<std::size_t>(pair)].add(angle, face.area);
-    planarities_[static_cast<std::size_t>(pair)].add(planarity(loop, face), face.area);
+    sample(FaceMeasure::non_orthogonality, pair).add(angle, face.area, flow_[id]);
+    sample(FaceMeasure::planarity, pair).add(planarity(loop, face), face.area, flow_[id]);
     if (angle > quality_limit::severe_non_orthogonality) ++report_.faces_above_70_degrees;
     if (angle >= quality_limit::reversed_face && pair != FacePair::host) ++report_.made_faces_beyond_90_degrees;
 
     const double skew = skewness(loop, face, a, b - a, 0.2);
+    sample(FaceMeasure::skewness, pair).add(skew, face.area, flow_[id]);
     report_.max_skewness = std::max(report_.max_skewness, skew);
     if (skew > quality_limit::skewness) ++report_.faces_above_skewness_4;
 
@@ -155,21 +196,24 @@ class QualityPass {
   }
 
   void distributions() {
-    std::array<Sample, face_pair_count> k_angles;
     for (std::size_t i = 0; i < mesh_.connections.size(); ++i) {
       const FaceId face = mesh_.connections.face[ConnectionId(i)];
       if (!face.is_valid() || geometry_[face].area <= smallest_area_) continue;
       const auto& [a, b] = mesh_.connections.cells[ConnectionId(i)];
       const FacePair pair = face_pair(mesh_.cells.kind[a], mesh_.cells.kind[b]);
-      k_angles[static_cast<std::size_t>(pair)].add(mesh_.connections.k_non_orthogonality[ConnectionId(i)],
-                                                   geometry_[face].area);
+      sample(FaceMeasure::k_non_orthogonality, pair)
+          .add(mesh_.connections.k_non_orthogonality[ConnectionId(i)], geometry_[face].area, flow_[face]);
     }
     for (std::size_t p = 0; p < face_pair_count; ++p) {
-      PairQuality& pair = report_.pairs[p];
-      pair.faces = static_cast<std::int64_t>(angles_[p].values.size());
-      pair.non_orthogonality = angles_[p].distribution();
-      pair.k_non_orthogonality = k_angles[p].distribution();
-      pair.planarity = planarities_[p].distribution();
+      const auto pair = static_cast<FacePair>(p);
+      const auto measured = [&](FaceMeasure measure) { return sample(measure, pair).distribution(measure); };
+      PairQuality& out = report_.pairs[p];
+      out.faces = static_cast<std::int64_t>(sample(FaceMeasure::non_orthogonality, pair).values.size());
+      out.area = sum(sample(FaceMeasure::non_orthogonality, pair).areas);
+      out.non_orthogonality = measured(FaceMeasure::non_orthogonality);
+      out.k_non_orthogonality = measured(FaceMeasure::k_non_orthogonality);
+      out.planarity = measured(FaceMeasure::planarity);
+      out.skewness = measured(FaceMeasure::skewness);
     }
   }
 
@@ -212,12 +256,16 @@ class QualityPass {
     }
   }
 
+  Sample& sample(FaceMeasure measure, FacePair pair) {
+    return samples_[static_cast<std::size_t>(measure)][static_cast<std::size_t>(pair)];
+  }
+
   const Mesh& mesh_;
   IdVector<FaceId, PolygonGeometry> geometry_;
+  IdVector<FaceId, double> flow_;
   double smallest_area_;  ///< m2; faces not above it have no meaningful angle
   QualityReport report_;
-  std::array<Sample, face_pair_count> angles_;
-  std::array<Sample, face_pair_count> planarities_;
+  std::array<std::array<Sample, face_pair_count>, face_measure_count> samples_;
   std::vector<Vec3> points_;
 };
 
@@ -239,7 +287,63 @@ void add_connections(const Mesh& mesh, CellQuality& out) {
   }
 }
 
+/// Largest skewness over each cell's inner faces.
+void add_skewness(const Mesh& mesh, const IdVector<FaceId, PolygonGeometry>& geometry, CellQuality& out) {
+  const double smallest_area = 1e-9 * median_face_area(geometry);
+  std::vector<Vec3> points;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const PolygonGeometry& face = geometry[FaceId(f)];
+    const auto& [first, second] = mesh.faces.cells[FaceId(f)];
+    if (!second.is_valid() || face.area <= smallest_area) continue;
+    const Vec3& from = mesh.cells.center[first];
+    const double skew =
+        skewness(face_points(mesh, FaceId(f), points), face, from, mesh.cells.center[second] - from, 0.2);
+    for (const CellId cell : {first, second}) out.max_skewness[cell] = std::max(out.max_skewness[cell], skew);
+  }
+}
+
 }  // namespace
+
+std::string_view name_of(FaceMeasure measure) {
+  static constexpr std::array<std::string_view, face_measure_count> names{"nonorth", "knonorth", "planarity",
+                                                                          "skewness"};
+  return names[static_cast<std::size_t>(measure)];
+}
+
+std::span<const double> classes_of(FaceMeasure measure) {
+  static constexpr std::array angles{0.0,  5.0,  10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0,
+                                     50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0};
+  static constexpr std::array flatness{0.0,   1e-6,   3.2e-6, 1e-5,  3.2e-5, 1e-4, 3.2e-4,
+                                       0.001, 0.0032, 0.01,   0.032, 0.1,    0.32};
+  static constexpr std::array skewness{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.5, 2.0, 3.0, 4.0};
+  if (measure == FaceMeasure::planarity) return flatness;
+  if (measure == FaceMeasure::skewness) return skewness;
+  return angles;
+}
+
+const Distribution& PairQuality::of(FaceMeasure measure) const {
+  switch (measure) {
+    case FaceMeasure::k_non_orthogonality: return k_non_orthogonality;
+    case FaceMeasure::planarity: return planarity;
+    case FaceMeasure::skewness: return skewness;
+    default: return non_orthogonality;
+  }
+}
+
+std::optional<MadeFaces> made_faces(const QualityReport& report, FaceMeasure measure) {
+  MadeFaces out;
+  double area = 0.0;
+  for (std::size_t p = 0; p < face_pair_count; ++p) {
+    const PairQuality& pair = report.pairs[p];
+    if (FacePair(p) == FacePair::host || pair.faces == 0) continue;
+    out.max = std::max(out.max, pair.of(measure).max);
+    out.area_mean += pair.area * pair.of(measure).area_mean;
+    area += pair.area;
+  }
+  if (area == 0.0) return std::nullopt;
+  out.area_mean /= area;
+  return out;
+}
 
 std::string_view name_of(FacePair pair) {
   static constexpr std::array<std::string_view, face_pair_count> names{
@@ -275,13 +379,14 @@ QualityReport quality(const Mesh& mesh) { return QualityPass(mesh).run(); }
 CellQuality cell_quality(const Mesh& mesh) {
   const std::size_t n = mesh.cells.size();
   CellQuality out;
-  for (auto* values : {&out.max_non_orthogonality, &out.max_k_non_orthogonality, &out.max_planarity,
+  for (auto* values : {&out.max_non_orthogonality, &out.max_k_non_orthogonality, &out.max_planarity, &out.max_skewness,
                        &out.min_transmissibility, &out.centring})
     values->resize(n, 0.0);
   add_connections(mesh, out);
 
   const CellFaces faces = faces_of_cells(mesh);
   const auto geometry = all_face_geometries(mesh);
+  add_skewness(mesh, geometry, out);
   for (std::size_t c = 0; c < n; ++c) {
     const CellId cell(c);
     double nearest = std::numeric_limits<double>::infinity();

@@ -11,10 +11,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "model/conservation.h"
+#include "model/linear_flux.h"
 #include "model/mesh.h"
 
 namespace wellknit {
@@ -37,17 +41,33 @@ FacePair face_pair(CellKind a, CellKind b);
 
 struct Distribution {
   double mean = 0.0;
-  double area_mean = 0.0;  ///< weighted with the faces' areas
-  double p99 = 0.0;        ///< 99th percentile, linear between order statistics
+  double area_mean = 0.0;           ///< weighted with the faces' areas
+  std::optional<double> flow_mean;  ///< weighted with the flux through them; unset where nothing flows, or is known to
+  double p99 = 0.0;                 ///< 99th percentile, linear between order statistics
   double max = 0.0;
+  /// Share of the area, and of the flow, in each class of the measure (classes_of()); empty without faces, or flow.
+  std::vector<double> area_share;
+  std::vector<double> flow_share;
 };
+
+/// What is measured at a face: the finite-volume conditions.
+enum class FaceMeasure : std::uint8_t { non_orthogonality, k_non_orthogonality, planarity, skewness };
+inline constexpr std::size_t face_measure_count = 4;
+/// "nonorth", "knonorth", "planarity", "skewness": the first part of the figures' names.
+std::string_view name_of(FaceMeasure measure);
+/// Lower ends of the classes of a measure's distribution, the first 0; the last class is open.
+std::span<const double> classes_of(FaceMeasure measure);
 
 /// Inner faces of one pair of kinds. Faces below 1e-9 of the median face area are left out: their angles are rounding.
 struct PairQuality {
   std::int64_t faces = 0;
+  double area = 0.0;                 ///< m2, of these faces
   Distribution non_orthogonality;    ///< degrees between the face normal and the line of centres
   Distribution k_non_orthogonality;  ///< degrees, as the connections store it
   Distribution planarity;  ///< largest distance of a vertex from the mean plane over the square root of the area
+  Distribution skewness;   ///< how far off the face's centroid the line of centres crosses it, as checkMesh measures it
+
+  [[nodiscard]] const Distribution& of(FaceMeasure measure) const;
 };
 
 struct QualityReport {
@@ -56,6 +76,8 @@ struct QualityReport {
   std::int64_t vertices = 0;
   std::int64_t connections = 0;
   std::array<PairQuality, face_pair_count> pairs;  ///< by FacePair
+  std::optional<Conservation> conservation;        ///< unset: the mesh file does not know its source's volumes
+  std::optional<LinearFluxErrors> linear_flux;     ///< unset: the mesh file does not have them, or nothing was made
 
   double min_volume = 0.0;  ///< m3
   double max_volume = 0.0;
@@ -88,6 +110,13 @@ struct QualityReport {
 /// The mesh's structure must be right (check_structure()).
 QualityReport quality(const Mesh& mesh);
 
+/// Over the faces with a transition or radial cell on a side, all pairs together; unset without such faces.
+struct MadeFaces {
+  double max = 0.0;
+  double area_mean = 0.0;
+};
+std::optional<MadeFaces> made_faces(const QualityReport& report, FaceMeasure measure);
+
 /// A figure of a report by its name; the names are those of limits files and of JSON.
 struct Figure {
   std::string name;
@@ -116,6 +145,7 @@ struct CellQuality {
   IdVector<CellId, double> max_non_orthogonality;    ///< degrees, over the cell's connections; 0
   IdVector<CellId, double> max_k_non_orthogonality;  ///< degrees; 0
   IdVector<CellId, double> max_planarity;            ///< 0
+  IdVector<CellId, double> max_skewness;             ///< over the cell's inner faces; 0
   IdVector<CellId, double> min_transmissibility;     ///< m3; 0
   /// Smallest distance of the centre from a face over the cube root of the volume; negative: outside of a face. 0.5 in
   /// a cube.

@@ -21,6 +21,7 @@ void add_distribution(std::vector<Figure>& out, const std::string& name, const s
                       const Distribution& values) {
   out.push_back({name + "_mean" + unit, values.mean});
   out.push_back({name + "_area_mean" + unit, values.area_mean});
+  if (values.flow_mean) out.push_back({name + "_flow_mean" + unit, *values.flow_mean});
   out.push_back({name + "_p99" + unit, values.p99});
   out.push_back({name + "_max" + unit, values.max});
 }
@@ -71,6 +72,28 @@ std::vector<Figure> figures(const QualityReport& report) {
     add_distribution(out, "nonorth_" + name, "_deg", pair.non_orthogonality);
     add_distribution(out, "knonorth_" + name, "_deg", pair.k_non_orthogonality);
     add_distribution(out, "planarity_" + name, "", pair.planarity);
+    add_distribution(out, "skewness_" + name, "", pair.skewness);
+  }
+  double worst_angle = 0.0;
+  for (const PairQuality& pair : report.pairs) worst_angle = std::max(worst_angle, pair.non_orthogonality.max);
+  figure("max_nonorth_deg", worst_angle);
+  for (std::size_t m = 0; m < face_measure_count; ++m) {
+    const auto measure = static_cast<FaceMeasure>(m);
+    const auto made = made_faces(report, measure);
+    if (!made) continue;
+    const char* unit = measure <= FaceMeasure::k_non_orthogonality ? "_deg" : "";
+    figure(fmt::format("{}_made_area_mean{}", name_of(measure), unit), made->area_mean);
+    figure(fmt::format("{}_made_max{}", name_of(measure), unit), made->max);
+  }
+  if (report.linear_flux)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const char* name = std::array{"x", "y", "depth"}[axis];
+      figure(fmt::format("linear_flux_error_area_mean_{}", name), report.linear_flux->area_mean[axis]);
+      figure(fmt::format("linear_flux_error_max_{}", name), report.linear_flux->max[axis]);
+    }
+  if (report.conservation) {
+    figure("bulk_volume_error", report.conservation->bulk_error());
+    figure("pore_volume_error", report.conservation->pore_error());
   }
   count("faces_above_70_deg", report.faces_above_70_degrees);
   count("made_faces_beyond_90_deg", report.made_faces_beyond_90_degrees);
@@ -123,6 +146,13 @@ std::string QualityReport::to_text() const {
                      made_faces_beyond_90_degrees);
   out += fmt::format("skewness at most {:.3g} (boundary {:.3g}), above {:g}: {}\n", max_skewness, max_boundary_skewness,
                      quality_limit::skewness, faces_above_skewness_4);
+  if (linear_flux) {
+    const auto& [faces_of_it, mean, most] = *linear_flux;
+    out += fmt::format(
+        "flux of a linear pressure, {} refined and transition faces: error by area {:.3g}, {:.3g}, {:.3g}, "
+        "at most {:.3g}, {:.3g}, {:.3g} (x, y, depth)\n",
+        faces_of_it, mean[0], mean[1], mean[2], most[0], most[1], most[2]);
+  }
   out += fmt::format("interpolation weight at least {:.3g}, below {:g}: {}\n", min_interpolation_weight,
                      quality_limit::interpolation_weight, faces_below_weight_005);
   out += fmt::format("volume ratio at least {:.3g}, flatness at least {:.3g}\n", min_volume_ratio, min_flatness);
@@ -138,9 +168,16 @@ std::string QualityReport::to_text() const {
 
 std::vector<Limit> read_limits(const std::string& path) {
   const toml::table table = parse_limits(path);
-  // Figures of pairs of kinds that a mesh does not have are known names too.
+  // Figures that a mesh need not have, of a pair of kinds or of its flow, are known names too.
   QualityReport every_pair;
-  for (PairQuality& pair : every_pair.pairs) pair.faces = 1;
+  for (PairQuality& pair : every_pair.pairs) {
+    pair.faces = 1;
+    pair.area = 1.0;
+    for (Distribution* values : {&pair.non_orthogonality, &pair.k_non_orthogonality, &pair.planarity, &pair.skewness})
+      values->flow_mean = 0.0;
+  }
+  every_pair.conservation.emplace();
+  every_pair.linear_flux.emplace();
   const std::vector<Figure> known = figures(every_pair);
 
   std::vector<Limit> out;

@@ -63,6 +63,7 @@ DeckToken DeckTokens::start_token() {
   DeckToken token;
   token.line = line_;
   token.column = at_ - line_start_;
+  token.begin = at_;
   token.first_on_line = !token_on_line_;
   token_on_line_ = true;
   return token;

@@ -21,6 +21,7 @@ struct DeckToken {
   std::string_view text;
   std::int64_t line = 1;       ///< 1-based
   std::size_t column = 0;      ///< 0-based
+  std::size_t begin = 0;       ///< 0-based byte of the text where it begins, with its quote
   bool first_on_line = false;  ///< nothing but blanks before it
 };
 
@@ -47,6 +48,8 @@ class DeckTokens {
 
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - at_; }
   [[nodiscard]] std::int64_t line() const { return line_; }
+  /// Byte after the last token; after a '/' the end of its line.
+  [[nodiscard]] std::size_t offset() const { return at_; }
 
  private:
   void skip_blank();

@@ -222,13 +222,25 @@ bool describe_properties(const std::string& path, const ReaderFormat& format, Fi
   return true;
 }
 
+/// True, with what it counts, for a mesh in the format of another program.
+bool describe_exported_mesh(const std::string& path, FileDescription& out) {
+  const FileContent content = load_file(path);
+  const ReaderFormat& format = recognise_content(content);
+  if (format.is_read || format.kind != FormatKind::mesh) return false;
+  out.format = std::string(format.name);
+  out.exported = count_exported_mesh(content.text);
+  out.notes.push_back("a mesh for another program: wellknit counts it and does not read it");
+  return true;
+}
+
 }  // namespace
 
 FileDescription describe_file(const std::string& path,
                               const std::function<GridValidity(const CornerPointGrid&)>& look_at) {
-  const ReaderFormat& format = recognise_file(path);
   FileDescription out;
   out.path = path;
+  if (describe_exported_mesh(path, out)) return out;
+  const ReaderFormat& format = recognise_file(path);
   out.format = std::string(format.name);
   switch (format.kind) {
     case FormatKind::grid: {

@@ -16,6 +16,7 @@
 #include "model/geometry.h"
 #include "model/grid_validity.h"
 #include "model/well.h"
+#include "readers/exported_mesh.h"
 
 namespace wellknit {
 
@@ -95,6 +96,7 @@ struct FileDescription {
   std::string format;  ///< name in the table of formats
   std::optional<GridDescription> grid;
   std::optional<MeshDescription> mesh;
+  std::optional<ExportedCounts> exported;  ///< of a file for another program
   std::vector<WellDescription> wells;
   std::vector<SourceFile> sources;
   std::vector<std::string> notes;

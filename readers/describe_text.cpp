@@ -167,6 +167,28 @@ Json well_json(const WellDescription& well) {
           {"approximate_path", well.is_approximate}};
 }
 
+/// The counts that are known, by name.
+std::vector<std::pair<std::string, std::int64_t>> known_counts(const ExportedCounts& counts) {
+  std::vector<std::pair<std::string, std::int64_t>> out;
+  if (counts.cells) out.emplace_back("cells", *counts.cells);
+  if (counts.faces) out.emplace_back("faces", *counts.faces);
+  if (counts.vertices) out.emplace_back("vertices", *counts.vertices);
+  if (counts.connections) out.emplace_back("connections", *counts.connections);
+  return out;
+}
+
+std::string exported_text(const ExportedCounts& counts) {
+  std::string text;
+  for (const auto& [name, count] : known_counts(counts)) text += fmt::format("{:<13} {}\n", name, count);
+  return text;
+}
+
+Json exported_json(const ExportedCounts& counts) {
+  Json out = Json::object();
+  for (const auto& [name, count] : known_counts(counts)) out[name] = count;
+  return out;
+}
+
 Json mesh_json(const MeshDescription& mesh) {
   return {{"cells", mesh.cells},
           {"faces", mesh.faces},
@@ -184,6 +206,7 @@ std::string to_text(const FileDescription& description) {
   std::string text = fmt::format("{}: {}\n", description.path, description.format);
   if (description.grid) text += grid_text(*description.grid);
   if (description.mesh) text += mesh_text(*description.mesh);
+  if (description.exported) text += exported_text(*description.exported);
   for (const WellDescription& well : description.wells) text += well_text(well);
   for (const SourceFile& source : description.sources)
     text += fmt::format("read {} sha256 {}\n", source.path, source.sha256);
@@ -199,6 +222,7 @@ std::string to_json(const FileDescription& description) {
   out["format"] = description.format;
   if (description.grid) out["grid"] = grid_json(*description.grid);
   if (description.mesh) out["mesh"] = mesh_json(*description.mesh);
+  if (description.exported) out["exported"] = exported_json(*description.exported);
   out["wells"] = Json::array();
   for (const WellDescription& well : description.wells) out["wells"].push_back(well_json(well));
   out["sources"] = Json::array();

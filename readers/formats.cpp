@@ -11,6 +11,7 @@
 #include "readers/deck_keywords.h"
 #include "readers/deck_tokens.h"
 #include "readers/ecl_records.h"
+#include "readers/exported_mesh.h"
 #include "readers/file_content.h"
 #include "readers/read_binary_grdecl.h"
 #include "readers/read_egrid.h"
@@ -80,6 +81,26 @@ std::vector<ReaderFormat> make_table() {
        "GRDECL keywords in binary records", read, binary, looks_like_binary_grdecl, nullptr, parse_binary_grdecl},
       {"ROFF", K::grid, {".roff", ".roffasc"}, "'roff-bin' or 'roff-asc'",
        "RMS grid and parameters, binary or ASCII", read, binary, looks_like_roff, nullptr, parse_roff},
+      {"open-DARTS arrays", K::mesh, {".npz"}, "ZIP with block_m.npy first",
+       "connection list for open-DARTS", unread, binary, looks_like_darts_arrays},
+      {"MATLAB file", K::mesh, {".mat"}, "'MATLAB 5.0 MAT-file'",
+       "grid for MRST and JutulDarcy", unread, binary, looks_like_mat_file},
+      {"OPM grid text", K::mesh, {".opmgrid"}, "six sizes, then two flags",
+       "UnstructuredGrid of OPM", unread, text, looks_like_opm_grid},
+      {"PFLOTRAN grid", K::mesh, {".uge"}, "CELLS and a number",
+       "explicit unstructured grid", unread, text, looks_like_pflotran_grid},
+      {"TOUGH mesh", K::mesh, {".mesh"}, "ELEME",
+       "elements and connections", unread, text, looks_like_tough_mesh},
+      {"AD-GPRS connections", K::mesh, {}, "TPFACONNS",
+       "connection list", unread, text, looks_like_adgprs_connections},
+      {"cell table", K::mesh, {}, "header cell,kind,x,y,depth",
+       "cells of a mesh as CSV", unread, text, looks_like_cell_table},
+      {"connection table", K::mesh, {}, "header first,second,kind",
+       "connections of a mesh as CSV", unread, text, looks_like_connection_table},
+      {"FEHM coefficients", K::mesh, {".stor"}, "fehmstor",
+       "sparse matrix of connections", unread, text, looks_like_fehm_stor},
+      {"DGF", K::mesh, {".dgf"}, "DGF",
+       "polyhedra in the Dune grid format", unread, text, looks_like_dgf},
       {"RESQML", K::grid, {".epc"}, "ZIP signature",
        "RESQML package", unread, binary, is_zip},
       {"Petrel well trace", K::wells, {".wellpath"}, "'WELL TRACE FROM PETREL'",
@@ -139,19 +160,24 @@ std::string not_read_advice(const ReaderFormat& format) {
   return "not read yet; export the grid as EGRID, ROFF or GRDECL";
 }
 
-const ReaderFormat& recognise_file(const std::string& path) {
-  const FileContent content = load_file(path);
+const ReaderFormat& recognise_content(const FileContent& content) {
+  const std::string& path = content.path;
   const auto* format = recognise(path, content.text);
   if (format == nullptr) {
     throw ParseError({path, 0, ""},
                      {"a deck, a grid, a well path or a mesh file",
                       content.text.empty() ? "an empty file" : "none that is known", "see wellknit formats"});
   }
-  if (!format->is_read) {
-    throw ParseError({path, 0, ""}, {"a format that is read", fmt::format("a file in the format {}", format->name),
-                                     not_read_advice(*format)});
-  }
   return *format;
+}
+
+const ReaderFormat& recognise_file(const std::string& path) {
+  const ReaderFormat& format = recognise_content(load_file(path));
+  if (!format.is_read) {
+    throw ParseError({path, 0, ""}, {"a format that is read", fmt::format("a file in the format {}", format.name),
+                                     not_read_advice(format)});
+  }
+  return format;
 }
 
 }  // namespace wellknit

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/file_content.h"
 #include "readers/grid_part.h"
 #include "readers/read_trajectory.h"
 
@@ -37,6 +38,9 @@ const ReaderFormat* recognise(const std::string& path, std::string_view text);
 
 /// The binary format of this content, or nothing.
 const ReaderFormat* recognise_binary(std::string_view text);
+
+/// The format of a loaded file, whether it is read or not. Throws ParseError when it is empty or not recognised.
+const ReaderFormat& recognise_content(const FileContent& content);
 
 /// The format of a file on the disk. Throws ParseError when it is missing, empty, not recognised, or recognised and not
 /// read.

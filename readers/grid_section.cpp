@@ -269,14 +269,17 @@ void GridSection::take_properties(CornerPointGrid& grid) {
     const double fallback = find_cell_array(name)->default_value;
     if (auto* reals = std::get_if<std::vector<double>>(&array.values)) {
       std::size_t unset = 0;
+      std::vector<std::uint8_t> given(reals->size());
       for (std::size_t cell = 0; cell < reals->size(); ++cell) {
         double& value = (*reals)[cell];
         if (std::isinf(value)) throw ParseError(array.last_set, {"finite values", "one that overflows", ""});
-        if (!std::isnan(value)) continue;
+        given[cell] = std::isnan(value) ? 0 : 1;
+        if (given[cell] != 0) continue;
         unset += grid.active[cell];
         value = fallback;
       }
       // Simulators take such values from tables or from equilibrium.
+      if (unset > 0) grid.property_given.emplace(name, std::move(given));
       if (unset > 0)
         stream_.notes.push_back(fmt::format("{}:{}: {} has no value in {} active cells; {:g} stands there",
                                             array.last_set.file, array.last_set.line, name, unset, fallback));

@@ -347,11 +347,17 @@ MeshFile read_mesh(const std::string& path) {
 
   const auto read_array = [&](const char* name, auto& values) { in.array(name, values); };
   for_each_array(mesh, read_array);
+  if (in.has("connections/linear_flux_error")) for_each_added_array(mesh, read_array);
   if (in.has("cells/properties"))
     for (const std::string& keyword : in.links("cells/properties"))
       mesh.cells.properties[keyword] = in.property("cells/properties/" + keyword);
   for (const std::string& link : in.strings("wells_order")) mesh.wells.push_back(read_well(in, link));
   if (in.has("transfer")) for_each_transfer_array(mesh, read_array);
+  if (in.has("transfer/source_volume")) for_each_source_volume(mesh, read_array);
+  if (in.has("flow")) {
+    for_each_flow_array(mesh.flow.emplace(), read_array);
+    mesh.flow->command = in.text_attribute("flow", "command");
+  }
 
   const std::vector<Violation> violations = check_structure(mesh);
   if (!violations.empty())

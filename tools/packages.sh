@@ -4,11 +4,14 @@
 # shellcheck shell=bash disable=SC2034
 
 build_packages=(cmake ninja-build g++ libeigen3-dev libfmt-dev libtbb-dev libcgal-dev libhdf5-dev libcli11-dev
-                nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev libpugixml-dev)
+                nlohmann-json3-dev libssl-dev libfast-float-dev libtomlplusplus-dev libpugixml-dev libzip-dev
+                zlib1g-dev pkg-config)
 simulation_packages=(libopm-simulators-bin)
-test_packages=(libgtest-dev python3 python3-numpy python3-h5py python3-vtk9)
+test_packages=(libgtest-dev libmatio-dev python3 python3-numpy python3-h5py python3-vtk9)
 # Consumers whose tests are skipped without them; openfoam installs in half a minute, with --no-install-recommends.
-optional_packages=(openfoam)
+optional_packages=(openfoam libopm-grid-dev octave chromium chromium-driver python3-selenium mkdocs)
+site_packages=(mkdocs)
+picture_packages=(python3-matplotlib)  # of docs/validation.md, when they are made anew
 benchmark_packages=(libbenchmark-dev libopm-common-dev libopm-grid-dev)
 ci_packages=(clang libclang-rt-14-dev clang-format clang-tidy gcovr ccache libbenchmark-dev git)
 

@@ -217,8 +217,8 @@ def main():
     window = (x - 55.0, x + 55.0, y - 55.0, y + 55.0)
     draw_plan(figure.add_subplot(grid[1, 1]), mesh, arguments.depth, window, f"around the well '{arguments.around}'", 0.5, "")
     patches = [Patch(facecolor=COLOUR[k], edgecolor=EDGE_COLOUR, linewidth=0.5, label=name)
-               for k, name in ((HOST, "host"), (TRANSITION, "transition"), (RADIAL, "radial"))]
-    figure.legend(handles=patches, loc="upper center", ncol=3, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 1.0))
+               for k, name in ((HOST, "host"), (REFINED, "refined"), (TRANSITION, "transition"), (RADIAL, "radial"))]
+    figure.legend(handles=patches, loc="upper center", ncol=4, fontsize=9, frameon=False, bbox_to_anchor=(0.5, 1.0))
     figure.savefig(arguments.out, bbox_inches="tight", pad_inches=0.08)
 
 

@@ -3,10 +3,10 @@
 
 #include "writers/deck_text.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 namespace wellknit {
@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t longest_line = 128;  // the simulators' own limit
 constexpr std::size_t longest_name = 8;
+constexpr std::size_t piece = 1U << 20U;  // bytes to the disk at once
 
 // The locale must not decide what a letter is.
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
@@ -35,23 +36,50 @@ std::string plain_name(const std::string& name) {
 
 }  // namespace
 
-void write_deck_array(std::ostream& out, std::string_view keyword, std::span<const double> values) {
-  fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text), "{}\n", keyword);
-  std::size_t line_start = text.size();
-  for (std::size_t i = 0; i < values.size();) {
-    std::size_t end = i + 1;
-    while (end < values.size() && values[end] == values[i]) ++end;
-    const std::string token = end - i > 1 ? fmt::format(" {}*{}", end - i, values[i]) : fmt::format(" {}", values[i]);
-    if (text.size() - line_start + token.size() > longest_line) {
-      text.push_back('\n');
-      line_start = text.size();
-    }
-    text.append(token);
-    i = end;
+DeckArray::DeckArray(std::ostream& out, std::string_view keyword) : out_(out) {
+  fmt::format_to(fmt::appender(text_), FMT_COMPILE("{}\n"), keyword);
+  line_start_ = text_.size();
+}
+
+void DeckArray::put_value() {
+  const std::size_t token = text_.size();
+  if (count_ > 1)
+    fmt::format_to(fmt::appender(text_), FMT_COMPILE(" {}*{}"), count_, value_);
+  else
+    fmt::format_to(fmt::appender(text_), FMT_COMPILE(" {}"), value_);
+  count_ = 0;
+  if (text_.size() - line_start_ > longest_line) {
+    // The token goes to the next line: its blank becomes that line's.
+    const std::string moved(text_.data() + token, text_.size() - token);
+    text_.resize(token);
+    text_.push_back('\n');
+    line_start_ = text_.size();
+    text_.append(moved);
   }
-  text.append(std::string_view("\n/\n"));
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (text_.size() > piece) flush();
+}
+
+void DeckArray::flush() {
+  // The line that is not full yet stays.
+  out_.write(text_.data(), static_cast<std::streamsize>(line_start_));
+  const std::string rest(text_.data() + line_start_, text_.size() - line_start_);
+  text_.clear();
+  text_.append(rest);
+  line_start_ = 0;
+}
+
+void DeckArray::end() {
+  if (count_ > 0) put_value();
+  text_.append(std::string_view("\n/\n"));
+  out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+  text_.clear();
+  line_start_ = 0;
+}
+
+void write_deck_array(std::ostream& out, std::string_view keyword, std::span<const double> values) {
+  DeckArray array(out, keyword);
+  for (const double value : values) array.add(value);
+  array.end();
 }
 
 void write_deck_comment(std::ostream& out, std::string_view text) {

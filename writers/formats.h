@@ -12,8 +12,20 @@
 #include "model/mesh.h"
 #include "model/provenance.h"
 #include "writers/output_file.h"
+#include "writers/writer_options.h"
 
 namespace wellknit {
+
+/// One output that is to be written.
+struct WriteRequest {
+  const Mesh& mesh;
+  const Provenance& provenance;
+  std::string path;
+  Overwrite overwrite = Overwrite::refuse;
+  WriterOptions options = {};
+  const CornerPointGrid* source = nullptr;   ///< of the mesh, where it is known
+  std::vector<std::string> side_paths = {};  ///< of WriterFormat::side_files; empty: where they belong
+};
 
 struct WriterFormat {
   std::string_view name;                         ///< as in `--write name=PATH`
@@ -21,9 +33,11 @@ struct WriterFormat {
   std::string_view description;                  ///< one line
   std::string_view document;                     ///< page under docs/formats
   FolderContents contents;                       ///< of a format that is a folder; empty: it is a file
-  /// Writes the mesh; returns what its user must know, one sentence each. Throws WriteError.
-  std::vector<std::string> (*write)(const Mesh& mesh, const Provenance& provenance, const std::string& path,
-                                    Overwrite overwrite);
+  /// Writes the mesh; returns what its user must know, one sentence each. Throws WriteError, and InvalidInput where the
+  /// mesh or the options cannot be written so.
+  std::vector<std::string> (*write)(const WriteRequest& request);
+  /// Further files beside the output of this path, whole paths; null: none.
+  std::vector<std::string> (*side_files)(const std::string& path, const WriterOptions& options) = nullptr;
 };
 
 std::span<const WriterFormat> writer_formats();

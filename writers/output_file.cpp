@@ -14,6 +14,7 @@
 #include <filesystem>
 
 #include "model/errors.h"
+#include "writers/unfinished_outputs.h"
 
 namespace wellknit {
 
@@ -129,12 +130,16 @@ OutputFile::OutputFile(const std::string& path, Overwrite overwrite, FolderConte
       overwrite_(overwrite),
       contents_(contents) {
   check_output_path(path, overwrite, contents);
+  const auto hold = hold_unfinished_outputs();
   temporary_ = create_beside(target_, contents.empty() ? Kind::file : Kind::folder);
+  add_unfinished_output(temporary_);
 }
 
 OutputFile::~OutputFile() {
   std::error_code ignored;  // nothing more can be done about what cannot be removed
-  if (!committed_) fs::remove_all(temporary_, ignored);
+  if (committed_) return;
+  fs::remove_all(temporary_, ignored);
+  forget_unfinished_output(temporary_);
 }
 
 std::int64_t OutputFile::size() const {
@@ -148,6 +153,7 @@ std::int64_t OutputFile::size() const {
 void OutputFile::commit() {
   // Somebody else may have made the target since the beginning.
   check_output_path(target_, overwrite_, contents_);
+  const auto hold = hold_unfinished_outputs();
   std::error_code error;
   if (contents_.empty())
     fs::rename(temporary_, target_, error);
@@ -155,6 +161,7 @@ void OutputFile::commit() {
     replace_folder(temporary_, target_, error);
   if (error) fail(target_, error.message());
   committed_ = true;
+  forget_unfinished_output(temporary_);
 }
 
 OutputStream::OutputStream(const std::string& path, Overwrite overwrite)

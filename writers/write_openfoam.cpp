@@ -13,6 +13,7 @@
 
 #include "model/errors.h"
 #include "writers/boundary_patches.h"
+#include "writers/connection_notes.h"
 #include "writers/foam_file.h"
 
 namespace wellknit {
@@ -313,25 +314,13 @@ class OpenFoamCase {
   FaceOrder order_;
 };
 
-std::vector<std::string> notes_of(const Mesh& mesh) {
-  const auto& c = mesh.connections;
-  const auto bare = std::count_if(c.face.begin(), c.face.end(), [](FaceId face) { return !face.is_valid(); });
-  const auto multiplied = std::count_if(c.multiplier.begin(), c.multiplier.end(), [](double m) { return m != 1.0; });
-  std::vector<std::string> notes;
-  if (bare > 0)
-    notes.push_back(fmt::format("{} connections without a face (NNC, pinch-outs) are not in the polyMesh", bare));
-  if (multiplied > 0)
-    notes.push_back(fmt::format("multipliers of {} connections are not in the OpenFOAM case", multiplied));
-  return notes;
-}
-
 }  // namespace
 
 std::vector<std::string> write_openfoam(const Mesh& mesh, const std::string& path, Overwrite overwrite) {
   OutputFile folder(path, overwrite, openfoam_contents);
   OpenFoamCase(mesh, folder.temporary_path(), path).write();
   folder.commit();
-  return notes_of(mesh);
+  return notes_of_geometry(mesh, "the polyMesh", "the OpenFOAM case");
 }
 
 }  // namespace wellknit

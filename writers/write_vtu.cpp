@@ -225,6 +225,7 @@ std::string cell_data(AppendedArrays& arrays, const Mesh& mesh) {
   xml += arrays.element("max_planarity", quality.max_planarity.raw());
   xml += arrays.element("min_transmissibility", quality.min_transmissibility.raw());
   xml += arrays.element("centring", quality.centring.raw());
+  if (mesh.flow) xml += arrays.element("pressure", mesh.flow->pressure.raw());
   for (const auto& [keyword, property] : cells.properties)
     xml += std::visit([&, &key = keyword](const auto& values) { return arrays.element(key, values); }, property);
   return xml;

@@ -11,34 +11,20 @@
 
 #include "tests/support/grids.h"
 #include "tests/support/near_well.h"
+#include "tests/support/near_well_setting.h"
 
 namespace wellknit {
 namespace {
 
-/// Host, space and one tube of a well in a deformed grid.
-struct Setting {
-  Case source;
-  HostMesh host;
-  std::unique_ptr<CellLocator> locator;
-  std::unique_ptr<ReferenceSpace> space;
+/// One tube of a well in a deformed grid.
+struct Setting : near_well::Setting {
   Tube tube;
 
-  Setting(double deformation, near_well::Path path) : source(near_well::deformed(deformation)) {
-    host = build_host_mesh(source.grid);
-    locator = std::make_unique<CellLocator>(source.grid);
-    space = std::make_unique<ReferenceSpace>(source.grid, host, CellRange{{0, 0, 0}, source.grid.dimensions});
-    const Well well = near_well::well(path, 12.0);
-    const auto samples = path_in_reference(frame(), well);
-    auto made = path == near_well::Path::vertical ? build_layered_tube(frame(), well, samples)
-                                                  : build_swept_tube(frame(), well, samples);
-    if (auto* none = std::get_if<NoTube>(&made)) throw std::runtime_error(none->reason);
-    tube = std::get<Tube>(made);
+  Setting(double deformation, near_well::Path path) : near_well::Setting(near_well::deformed(deformation).grid) {
+    tube = near_well::Setting::tube(near_well::well(path, 12.0), path == near_well::Path::vertical);
   }
-  [[nodiscard]] HostFrame frame() const { return {source.grid, host, *locator, *space}; }
   [[nodiscard]] Cavity cavity(const CavityOptions& options = {}) const {
-    auto made = build_cavity(frame(), {tube}, options);
-    if (auto* none = std::get_if<NoCavity>(&made)) throw std::runtime_error(none->reason);
-    return std::get<Cavity>(made);
+    return near_well::Setting::cavity(tube, options);
   }
 };
 
@@ -84,6 +70,28 @@ TEST(Cavity, EveryFaceIsCocyclicAndHasAnEmptySphere) {
   }
 }
 
+TEST(Cavity, SphereBoundsAreThoseOfATestAgainstAllVertices) {
+  for (const auto& [deformation, path] : settings) {
+    const Cavity cavity = Setting(deformation, path).cavity();
+    for (const BoundaryFace& f : cavity.faces) {
+      double low = -std::numeric_limits<double>::infinity();
+      double high = std::numeric_limits<double>::infinity();
+      for (const CavityVertex& v : cavity.vertices) {
+        const Vec3 d = v.reference - f.center;
+        const double h = f.normal.dot(d);
+        const double t = (d.squaredNorm() - f.radius * f.radius) / (2.0 * h);
+        if (h > 1e-9 * f.radius) high = std::min(high, t);
+        if (h < -1e-9 * f.radius) low = std::max(low, t);
+      }
+      // The search ends at four times the larger of natural distance and radius; a plane may end it earlier.
+      EXPECT_EQ(f.t_low, std::max(low, -4.0 * std::max(-f.natural_outside, f.radius)));
+      const double reached = std::min(high, 4.0 * std::max(f.natural, f.radius));
+      const bool is_cut_by_plane = f.high_vertex < 0 && !cavity.planes.empty();
+      EXPECT_EQ(is_cut_by_plane ? std::max(f.t_high, reached) : f.t_high, reached);
+    }
+  }
+}
+
 TEST(Cavity, HoldsItsTube) {
   for (const auto& [deformation, path] : settings) {
     const Setting setting(deformation, path);
@@ -91,7 +99,7 @@ TEST(Cavity, HoldsItsTube) {
     const std::set<std::array<std::int64_t, 3>> removed(cavity.removed.begin(), cavity.removed.end());
     for (const Vec3& p : setting.tube.reference.points) {
       std::array<std::int64_t, 3> c;
-      for (int a = 0; a < 3; ++a) c[static_cast<std::size_t>(a)] = setting.space->place(a, p[a]).first;
+      for (int a = 0; a < 3; ++a) c[static_cast<std::size_t>(a)] = setting.space.place(a, p[a]).first;
       EXPECT_TRUE(removed.contains(c));
     }
   }
@@ -112,16 +120,13 @@ TEST(Cavity, GrowsWhenAskedTo) {
 }
 
 TEST(Cavity, RefusesAFaultInsideItself) {
-  const CornerPointGrid grid = grids::faulted({12, 12, 8}, 3.0);
-  const HostMesh host = build_host_mesh(grid);
-  const CellLocator locator(grid);
-  const ReferenceSpace space(grid, host, {{0, 0, 0}, grid.dimensions});
-  const HostFrame frame{grid, host, locator, space};
+  const near_well::Setting setting(grids::faulted({12, 12, 8}, 3.0));
   Well well = near_well::straight("F", {52.0, 110.0, 1020.0}, {55.0, 130.0, 1020.0});  // 5 m from the fault at x = 60
   well.radial.drainage_radius = 4.0;
-  auto tube = build_swept_tube(frame, well, path_in_reference(frame, well));
+  EXPECT_TRUE(setting.stretches(well).empty());
+  const auto tube = build_swept_tube(setting.frame(), well, {0.0, 20.0});
   ASSERT_TRUE(std::holds_alternative<Tube>(tube)) << std::get<NoTube>(tube).reason;
-  const auto cavity = build_cavity(frame, {std::get<Tube>(tube)}, {});
+  const auto cavity = build_cavity(setting.frame(), {std::get<Tube>(tube)}, {});
   ASSERT_TRUE(std::holds_alternative<NoCavity>(cavity));
   EXPECT_NE(std::get<NoCavity>(cavity).reason.find("fault"), std::string::npos);
 }

@@ -19,28 +19,6 @@
 namespace wellknit {
 namespace {
 
-TEST(FlowConnections, MeanPressureRadiusIsTheAreaMeanOfTheLogarithm) {
-  // The mean of ln r over a ring by Simpson's rule in r, weight r.
-  const double a = 2.0;
-  const double b = 5.0;
-  constexpr int n = 2000;
-  double mean = 0.0;
-  for (int i = 0; i <= n; ++i) {
-    const double r = a + (b - a) * i / n;
-    mean += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * r * std::log(r);
-  }
-  mean *= (b - a) / n / 3.0 / (0.5 * (b * b - a * a));
-  EXPECT_NEAR(std::log(mean_pressure_radius(a, b)), mean, 1e-10);
-}
-
-TEST(FlowConnections, OpenLengthAddsUpTheOverlaps) {
-  Well well = near_well::straight("W", {0, 0, 0}, {0, 0, 100});
-  EXPECT_DOUBLE_EQ(open_length(well, 10.0, 30.0), 20.0);
-  EXPECT_DOUBLE_EQ(open_length(well, 90.0, 130.0), 10.0);  // the path ends at 100 m
-  well.open = {{0.0, 12.0}, {25.0, 26.0}, {29.0, 100.0}};
-  EXPECT_DOUBLE_EQ(open_length(well, 10.0, 30.0), 2.0 + 1.0 + 1.0);
-}
-
 /// A box of 21 x 21 x 4 cells of 20 x 20 x 5 m with a well through its middle from above to below.
 Case thiem_box(double permeability) {
   Case source;
@@ -114,6 +92,47 @@ TEST(FlowConnections, PartlyOpenWellConnectsItsOpenLayersOnly) {
   const MeshWell& out = result.mesh.wells[WellId(0)];
   ASSERT_EQ(out.connections.size(), 10U);  // one for each sector
   for (const WellConnection& c : out.connections) EXPECT_EQ(result.mesh.cells.radial_index[c.cell].segment, 1);
+}
+
+/// Isotropic rock; 3 x 1 x 3 cells of 10 x 20 x 5 m with level layers; pillars lean towards x by 3 in 4.
+Case leaning() {
+  Case source;
+  source.grid = grids::make({{3, 1, 3},
+                             [](std::int64_t i, std::int64_t j) {
+                               const auto x = 10.0 * static_cast<double>(i);
+                               const auto y = 20.0 * static_cast<double>(j);
+                               return std::array{Vec3(x, y, 1000.0), Vec3(x + 75.0, y, 1100.0)};
+                             },
+                             [](std::array<std::int64_t, 3> cell, std::array<int, 3> corner) {
+                               return 1000.0 + 5.0 * static_cast<double>(cell[2] + corner[2]);
+                             }});
+  for (auto& k : source.grid.permeability) k.assign(static_cast<std::size_t>(source.grid.cell_count()), 1e-13);
+  return source;
+}
+
+// With s = 3/4 the area vector of a face along i is A (1, 0, -s), the line of centres (dx, 0, 0): the simulators' T is
+// k A / dx. T l = k A (1, 0, 0) against K A = k A (1, 0, -s): off by s / sqrt(1 + s2) = 0.6 for a slope along depth.
+// Along k: A (0, 0, 1), l = dz (s, 0, 1), T = k A / (dz (1 + s2)): off by s / (1 + s2) = 0.48 along x and by
+// 1 - 1 / (1 + s2) = 0.36 along depth.
+TEST(FlowConnections, LinearFluxErrorIsWhatTwoPointsLeaveOut) {
+  const Mesh mesh = build_mesh(leaning(), {}, {}).mesh;
+  ASSERT_EQ(mesh.connections.linear_flux_error.size(), mesh.connections.size());
+  for (std::size_t n = 0; n < mesh.connections.size(); ++n) {
+    const Vec3 line = mesh.cells.center[mesh.connections.cells[ConnectionId(n)][1]] -
+                      mesh.cells.center[mesh.connections.cells[ConnectionId(n)][0]];
+    const Vec3 wanted = std::abs(line.z()) > 1.0 ? Vec3(0.48, 0.0, 0.36) : Vec3(0.0, 0.0, 0.6);
+    EXPECT_NEAR((mesh.connections.linear_flux_error[ConnectionId(n)] - wanted).norm(), 0.0, 1e-10) << n;
+  }
+}
+
+TEST(FlowConnections, LinearFluxIsExactInABoxOfLayers) {
+  Case source;
+  source.grid = grids::box({3, 3, 4});
+  // A factor of 1,000 from layer to layer is no error of the flux.
+  for (std::size_t c = 0; c < source.grid.permeability[2].size(); ++c)
+    source.grid.permeability[2][c] = (c / 9) % 2 == 0 ? 1e-14 : 1e-17;
+  const Mesh mesh = build_mesh(source, {}, {}).mesh;
+  for (const Vec3& error : mesh.connections.linear_flux_error) EXPECT_LT(error.norm(), 1e-10);
 }
 
 }  // namespace

@@ -7,14 +7,15 @@
 
 #include "tests/support/grids.h"
 #include "tests/support/near_well.h"
+#include "tests/support/near_well_setting.h"
 
 namespace wellknit {
 namespace {
 
 TEST(Horizon, OfABoxIsFlat) {
-  const CornerPointGrid grid = grids::box({4, 4, 3}, {10.0, 20.0, 5.0});
+  const near_well::Setting setting(grids::box({4, 4, 3}, {10.0, 20.0, 5.0}));
   for (std::int64_t level = 0; level <= 3; ++level) {
-    const auto p = Horizon(grid, level).at(33.0, 7.0, {0, 3});
+    const auto p = Horizon(setting.near, level).at(33.0, 7.0, {0, 3});
     ASSERT_TRUE(p);
     EXPECT_EQ(p->column, (std::array<std::int64_t, 2>{3, 0}));
     EXPECT_NEAR(p->point.z(), 1000.0 + 5.0 * static_cast<double>(level), 1e-9);
@@ -24,8 +25,8 @@ TEST(Horizon, OfABoxIsFlat) {
 }
 
 TEST(Horizon, PassesThroughTheCornersOfADeformedGrid) {
-  const Case source = near_well::deformed(1.0);
-  const Horizon horizon(source.grid, 5);
+  const near_well::Setting setting(near_well::deformed(1.0).grid);
+  const Horizon horizon(setting.near, 5);
   for (const auto& column : {std::array<std::int64_t, 2>{3, 4}, {10, 10}, {15, 2}}) {
     const auto corners = horizon.patch(column);
     const Vec3 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
@@ -37,9 +38,9 @@ TEST(Horizon, PassesThroughTheCornersOfADeformedGrid) {
 }
 
 TEST(Horizon, HasNoPointOutsideOfTheGrid) {
-  const CornerPointGrid grid = grids::box({4, 4, 3});
-  EXPECT_FALSE(Horizon(grid, 1).at(-1.0, 5.0, {2, 2}));
-  EXPECT_FALSE(Horizon(grid, 1).at(1e6, 5.0, {2, 2}));
+  const near_well::Setting setting(grids::box({4, 4, 3}));
+  EXPECT_FALSE(Horizon(setting.near, 1).at(-1.0, 5.0, {2, 2}));
+  EXPECT_FALSE(Horizon(setting.near, 1).at(1e6, 5.0, {2, 2}));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "readers/read_case.h"
 #include "tests/support/grids.h"
 #include "tests/support/host_checks.h"
+#include "tests/support/rounds.h"
 
 namespace wellknit {
 namespace {
@@ -66,14 +67,14 @@ std::int64_t expect_watertight(std::uint32_t seed) {
 
 TEST(HostMesh, IsWatertightOverRandomFaults) {
   std::int64_t fault_faces = 0;
-  for (std::uint32_t seed = 1; seed <= 300; ++seed) fault_faces += expect_watertight(seed);
-  EXPECT_GT(fault_faces, 300 * 30);  // else the grids would not try what they are for
+  for (std::uint32_t seed = 1; seed <= rounds(300U); ++seed) fault_faces += expect_watertight(seed);
+  EXPECT_GT(fault_faces, rounds(300) * 30);  // else the grids would not try what they are for
 }
 
 /// Other grids at each run; WELLKNIT_RANDOM_GRIDS asks for more of them.
 TEST(HostMesh, IsWatertightOverFreshRandomFaults) {
   const char* const asked = std::getenv("WELLKNIT_RANDOM_GRIDS");
-  const int count = asked == nullptr ? 200 : std::atoi(asked);
+  const int count = asked == nullptr ? rounds(200) : std::atoi(asked);
   const auto first = std::random_device()();
   std::cout << "seeds from " << first << '\n';
   for (int n = 0; n < count && !HasFailure(); ++n) {
@@ -194,16 +195,16 @@ void expect_usual(const RandomTally& tally) {
 
 TEST(HostMesh, HoldsItsPropertiesOverRandomGrids) {
   RandomTally tally;
-  for (std::uint32_t seed = 1; seed <= 300; ++seed) expect_sound(seed, tally);
+  for (std::uint32_t seed = 1; seed <= rounds(300U); ++seed) expect_sound(seed, tally);
   expect_usual(tally);
-  EXPECT_LT(tally.refused, 60);  // else the grids would not try what they are for
+  EXPECT_LT(tally.refused, rounds(60));  // else the grids would not try what they are for
   for (std::size_t n = 0; n < grid_oddity_count; ++n)
-    EXPECT_GT(tally.oddities[n], 10) << name_of(static_cast<GridOddity>(n));
+    EXPECT_GT(tally.oddities[n], rounds(10)) << name_of(static_cast<GridOddity>(n));
 }
 
 TEST(HostMesh, HoldsItsPropertiesOverFreshRandomGrids) {
   const char* const asked = std::getenv("WELLKNIT_RANDOM_GRIDS");
-  const int count = asked == nullptr ? 200 : std::atoi(asked);
+  const int count = asked == nullptr ? rounds(200) : std::atoi(asked);
   const auto first = std::random_device()();
   std::cout << "seeds from " << first << '\n';
   RandomTally tally;

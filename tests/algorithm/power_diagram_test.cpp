@@ -14,6 +14,7 @@
 #include "algorithm/cavity_mapping.h"
 #include "algorithm/short_edges.h"
 #include "tests/support/near_well.h"
+#include "tests/support/near_well_setting.h"
 
 namespace wellknit {
 namespace {
@@ -25,19 +26,9 @@ struct Diagram {
 };
 
 Diagram diagram_of(double deformation, near_well::Path path, double radius = 12.0) {
-  const Case source = near_well::deformed(deformation);
-  const HostMesh host = build_host_mesh(source.grid);
-  const CellLocator locator(source.grid);
-  const ReferenceSpace space(source.grid, host, CellRange{{0, 0, 0}, source.grid.dimensions});
-  const HostFrame frame{source.grid, host, locator, space};
-  const Well well = near_well::well(path, radius);
-  const auto samples = path_in_reference(frame, well);
-  auto tube = path == near_well::Path::vertical ? build_layered_tube(frame, well, samples)
-                                                : build_swept_tube(frame, well, samples);
-  if (auto* none = std::get_if<NoTube>(&tube)) throw std::runtime_error(none->reason);
-  auto cavity = build_cavity(frame, {std::get<Tube>(tube)}, {});
-  if (auto* none = std::get_if<NoCavity>(&cavity)) throw std::runtime_error(none->reason);
-  Diagram out{std::get<Cavity>(cavity), {}, {}};
+  const near_well::Setting setting(near_well::deformed(deformation).grid);
+  const Tube tube = setting.tube(near_well::well(path, radius), path == near_well::Path::vertical);
+  Diagram out{setting.cavity(tube), {}, {}};
   out.sites = place_sites(out.cavity);
   out.diagram = build_power_diagram(out.cavity, out.sites);
   return out;
@@ -152,13 +143,67 @@ TEST(CavityMapping, OfABoxGridIsTheIdentity) {
 
 TEST(CavityMapping, IsUntangledByBothMethods) {
   for (const MappingMethod method : {MappingMethod::automatic, MappingMethod::paper}) {
-    const Diagram d = diagram_of(2.0, near_well::Path::curved);
+    const Diagram d = diagram_of(1.6, near_well::Path::curved, 8.0);
     const CavityMapping mapping(d.cavity, method);
     EXPECT_EQ(mapping.report().failure, "");
     EXPECT_GT(mapping.report().inverted_first, 0) << "the setting is too gentle to test untangling";
     EXPECT_EQ(mapping.report().inverted_last, 0);
     EXPECT_GT(mapping.report().smallest_ratio, 0.0);
     EXPECT_GE(mapping.report().points_inserted, 1);
+  }
+}
+
+TEST(CavityMapping, SliversAreFlippedWithoutNewPoints) {
+  // Inverted tetrahedra whose vertices lie near one circle of E_ref: others of the same vertices are not.
+  const Diagram d = diagram_of(1.6, near_well::Path::curved, 12.0);
+  const CavityMapping mapping(d.cavity, MappingMethod::automatic);
+  EXPECT_EQ(mapping.report().failure, "");
+  EXPECT_GT(mapping.report().inverted_first, 0) << "the setting is too gentle to test flips";
+  EXPECT_EQ(mapping.report().inverted_last, 0);
+  EXPECT_EQ(mapping.report().points_inserted, 0);
+}
+
+TEST(CavityMapping, SaysWhereItFails) {
+  // At a deformation where nothing helps: the places are on the tube, between its ends.
+  const Diagram d = diagram_of(2.2, near_well::Path::curved, 10.0);
+  const MappingReport report = CavityMapping(d.cavity, MappingMethod::automatic).report();
+  ASSERT_NE(report.failure, "");
+  ASSERT_FALSE(report.places_at_fault.empty());
+  const auto& depths = d.cavity.tubes[0].real.measured_depth;
+  for (const TubePlace& p : report.places_at_fault) {
+    EXPECT_EQ(p.tube, 0U);
+    EXPECT_GE(p.measured_depth, depths.front());
+    EXPECT_LE(p.measured_depth, depths.back());
+  }
+}
+
+TEST(CavityMapping, SaysWhereTheBoundaryHasNoArea) {
+  // A layer without thickness at the wall: the two nodes of a vertical edge of a host face have one real position.
+  for (const MappingMethod method : {MappingMethod::automatic, MappingMethod::paper}) {
+    Diagram d = diagram_of(0.0, near_well::Path::curved);
+    const auto face = std::find_if(d.cavity.faces.begin(), d.cavity.faces.end(),
+                                   [](const BoundaryFace& f) { return f.kind == BoundaryFaceKind::host; });
+    auto& vertices = d.cavity.vertices;
+    vertices[static_cast<std::size_t>(face->loop[0])].real = vertices[static_cast<std::size_t>(face->loop[1])].real;
+    const CavityMapping mapping(d.cavity, method);
+    EXPECT_NE(mapping.report().failure.find("have no area"), std::string::npos) << mapping.report().failure;
+    EXPECT_EQ(mapping.report().loops, 0);
+  }
+}
+
+TEST(CavityMapping, EndsWithAPlainFailureWhereNothingHelps) {
+  // One vertex of the tube stands on the far side of it in the real space: its own fixed neighbours fold over.
+  for (const MappingMethod method : {MappingMethod::automatic, MappingMethod::paper}) {
+    Diagram d = diagram_of(0.0, near_well::Path::curved);
+    const auto tube = std::find_if(d.cavity.vertices.begin(), d.cavity.vertices.end(),
+                                   [](const CavityVertex& v) { return !v.is_host; });
+    const Vec3 axis = d.cavity.tubes[0].real.axis.front();
+    tube->real += 40.0 * (tube->real - axis);
+    const CavityMapping mapping(d.cavity, method);
+    EXPECT_NE(mapping.report().failure.find("stay inverted"), std::string::npos);
+    EXPECT_GT(mapping.report().inverted_first, 0);
+    EXPECT_GT(mapping.report().inverted_last, 0);
+    EXPECT_LE(mapping.report().loops, 25);
   }
 }
 

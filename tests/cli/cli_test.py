@@ -7,8 +7,11 @@ The environment names the program (WELLKNIT) and the project's folder (WELLKNIT_
 import json
 import os
 import pathlib
+import pty
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["WELLKNIT"]
@@ -150,11 +153,15 @@ class BadInput(Case):
 
     def test_bad_option_values(self):
         for option, value in (("--radius", "-3"), ("--radius", "nan"), ("--sectors", "2"), ("--sectors", "4.5"), ("--rings", "0"),
-                              ("--growth", "0"), ("--segments", "0"), ("--mode", "spiral"), ("--threads", "0"), ("--refine", "2"),
-                              ("--fault-policy", "heal"), ("--metric", "permeability"), ("--mapping", "best"),
+                              ("--growth", "0"), ("--segments", "0"), ("--mode", "spiral"), ("--threads", "0"), ("--refine", "11"),
+                              ("--fault-policy", "jump"), ("--heal-throw", "-1"), ("--metric", "permeability"), ("--mapping", "best"),
                               ("--write", "vtu"), ("--write", "png=a.png"), ("--deck-wells", "")):
             with self.subTest(option=option, value=value):
                 self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", option, value, mention=[option if option != "--write" else value.split("=")[0]])
+
+    def test_heal_throw_without_heal(self):
+        self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", "--heal-throw", "1", mention=["--heal-throw", "--fault-policy heal"])
+        self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", "--fault-policy", "stop", "--heal-throw", "1", mention=["--heal-throw"])
 
     def test_include_loop(self):
         self.write("box.GRDECL", "INCLUDE\n'other.inc' /\n" + grdecl())
@@ -202,7 +209,7 @@ class BadInput(Case):
         self.fail_with(2, "build", mention=["CASE"])
         self.fail_with(2, "build", "box.GRDECL", mention=["-o"])
         self.fail_with(2, mention=["command"])
-        self.fail_with(2, "solve", "out.h5", mention=["solve"])
+        self.fail_with(2, "simulate", "out.h5", mention=["simulate"])
 
     def test_deck_wells_of_a_grid_without_wells(self):
         self.fail_to_build(1, "box.GRDECL", "--deck-wells", "all", mention=["--deck-wells"])
@@ -275,6 +282,28 @@ class Convert(Case):
         self.assertEqual((self.folder / "again.h5").read_bytes(), (self.folder / "mesh.h5").read_bytes())
         self.succeed("convert", "mesh.h5", "deck.txt", "--to", "deck")
 
+    def test_mesh_file_to_every_format(self):
+        """convert gives the bytes of build --write, and info knows what it is."""
+        outputs = {"opm_grid": "a.opmgrid", "mrst": "a.mat", "pflotran": "a.pflotran", "pflotran_h5": "a.pflotran_h5", "tough": "a.tough",
+                   "darts": "a.npz", "darts_h5": "a.darts_h5", "adgprs": "a.adgprs", "csv": "a.tables", "fehm": "a.fehm", "dgf": "a.dgf"}
+        written = [word for name, path in outputs.items() for word in ("--write", f"{name}={path}")]
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", *written)
+
+        def content(name):
+            path = self.folder / name
+            files = sorted(p for p in path.rglob("*") if p.is_file()) if path.is_dir() else [path]
+            return [(str(p.relative_to(path)), p.read_bytes()) for p in files]
+        for path in outputs.values():
+            with self.subTest(path=path):
+                self.succeed("convert", "mesh.h5", "b" + path)
+                self.assertEqual(content("b" + path), content(path))
+        cells = sum(json.loads(self.succeed("info", "mesh.h5", "--json"))["mesh"]["cells"].values())
+        for path in ("a.opmgrid", "a.pflotran/mesh.uge", "a.tough/MESH", "a.tables/cells.csv", "a.fehm/mesh.stor", "a.dgf"):
+            with self.subTest(path=path):
+                self.assertEqual(json.loads(self.succeed("info", path, "--json"))["exported"]["cells"], cells)
+        for path in ("a.mat", "a.npz", "a.adgprs/connections.txt", "a.tables/connections.csv"):
+            self.assertIn(path, self.succeed("info", path))
+
     def test_mesh_file_to_a_folder(self):
         self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "openfoam=direct")
         self.succeed("convert", "mesh.h5", "by_extension.openfoam")
@@ -283,6 +312,37 @@ class Convert(Case):
         self.assertEqual(content("by_extension.openfoam"), content("direct"))
         self.assertEqual(content("by_name"), content("direct"))
         self.assertIn("bore_well", (self.folder / "direct/constant/polyMesh/boundary").read_text())
+
+    def test_keys_of_outputs(self):
+        """The same bytes by --write, a run file and convert; plain refusals."""
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5",
+                     "--write", "deck=A.DATA,layout=portable,order=rcm", "--write", "deck=N.DATA,layout=nested", "--write", "vtu=odd,name.vtu")
+        self.assertTrue((self.folder / "odd,name.vtu").exists())
+        self.write("run.toml", "case = 'box.GRDECL'\nradius = 9\n[[well]]\nfile = 'well.csv'\n[write]\nvtu = 'c.vtu'\n"
+                   "deck = [{path = 'C.DATA', layout = 'portable', order = 'rcm'}, {path = 'D.DATA', layout = 'nested'}]\n")
+        self.succeed("build", "run.toml")
+        self.succeed("convert", "mesh.h5", "B.DATA", "--to", "deck,layout=portable,order=rcm")
+        self.succeed("convert", "mesh.h5", "M.DATA", "--to", "deck,layout=nested", "--source", "box.GRDECL")
+        self.succeed("convert", "box.GRDECL", "H.DATA", "--to", "deck,layout=nested")
+        same = lambda *names: self.assertEqual(len({(self.folder / name).read_bytes() for name in names}), 1, names)
+        same("A.DATA", "B.DATA", "C.DATA")
+        same("A_CELLS.grdecl", "B_CELLS.grdecl", "C_CELLS.grdecl")
+        same("N.DATA", "M.DATA", "D.DATA")
+        for end in ("CELLS", "REFINE", "OLDIJK"):
+            same(f"N_{end}.grdecl", f"M_{end}.grdecl", f"D_{end}.grdecl")
+        for line, words in (("deck=X.DATA,layout=wide", ["layout", "portable", "wide"]), ("deck=X.DATA,colour=red", ["colour", "layout"]),
+                            ("vtu=x.vtu,layout=row", ["vtu", "layout"]), ("deck=,layout=row", ["FORMAT=PATH"])):
+            with self.subTest(line=line):
+                self.fail_with(2, "build", "box.GRDECL", "--well", "well.csv", "--write", line, mention=["--write", *words])
+        self.fail_with(2, "convert", "mesh.h5", "X.DATA", "--to", "deck,layout=wide", mention=["layout", "wide"])
+        self.fail_with(1, "convert", "mesh.h5", "X.DATA", "--to", "deck,layout=nested", mention=["--source"])
+        (self.folder / "A.DATA").unlink()
+        self.fail_with(1, "convert", "mesh.h5", "A.DATA", "--to", "deck,order=rcm", mention=["A_CELLS.grdecl", "--overwrite"])
+        self.write("bad.toml", "case = 'box.GRDECL'\n[write]\ndeck = {path = 'Y.DATA', layout = 'wide'}\n")
+        self.fail_with(2, "build", "bad.toml", mention=["bad.toml:3:", "layout", "wide"])
+        self.write("bad.toml", "case = 'box.GRDECL'\n[write]\ndeck = {layout = 'row'}\n")
+        self.fail_with(2, "build", "bad.toml", mention=["bad.toml:3:", "path"])
+        self.assertEqual([p.name for p in self.folder.glob("[XY]*")], [])
 
     def test_grid_to_mesh_file(self):
         self.succeed("convert", "box.GRDECL", "host.h5")
@@ -472,16 +532,292 @@ class Summary(Case):
                 json.loads(self.succeed("info", name, "--json"))
 
 
+class Report(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("summary.json", self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=P1", "-o", "mesh.h5", "--json"))
+
+    def test_is_one_page_with_the_figures_of_check(self):
+        self.assertIn("wrote", self.succeed("report", "mesh.h5", "-o", "page.html", "--summary", "summary.json"))
+        page = (self.folder / "page.html").read_text()
+        check = json.loads(self.succeed("check", "mesh.h5", "--json"))
+        self.assertEqual(json.loads(page.split('id="check">')[1].split("</script>")[0]), check)
+        for text in (check["headline"], "P1", "near-well mesh", "pore_volume_error"):
+            self.assertIn(text, page)
+
+    def test_says_why_a_well_was_not_meshed(self):
+        self.write("summary.json", self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=P1", "--well",
+                                                "well.csv,radius=9,name=P2", "-o", "two.h5", "--json"))
+        reasons = [well["reason"] for well in json.loads((self.folder / "summary.json").read_text())["wells"] if well["reason"]]
+        self.assertTrue(reasons)  # two wells of one path: one of them cannot be meshed
+        self.succeed("report", "two.h5", "-o", "page.html", "--summary", "summary.json", "--quiet")
+        page = (self.folder / "page.html").read_text()
+        self.assertIn("Not meshed", page)
+        self.assertIn("Not in a radial mesh", page)
+
+    def test_refusals(self):
+        self.fail_with(2, "report", "mesh.h5", mention=["--output"])
+        self.fail_with(1, "report", "box.GRDECL", "-o", "page.html", mention=["box.GRDECL"])
+        self.fail_with(1, "report", "mesh.h5", "-o", "nowhere/page.html", mention=["nowhere"])
+        self.fail_with(1, "report", "mesh.h5", "-o", "page.html", "--summary", "well.csv", mention=["well.csv", "--json"])
+        self.write("page.html", "mine")
+        self.fail_with(1, "report", "mesh.h5", "-o", "page.html", mention=["--overwrite"])
+        self.succeed("report", "mesh.h5", "-o", "page.html", "--overwrite")
+
+
+class Terminal(Case):
+    def on_a_terminal(self, *arguments, **environment):
+        """What the program writes where both of its streams are a terminal."""
+        master, slave = pty.openpty()
+        self.addCleanup(os.close, master)
+        given = {**os.environ, "TERM": "xterm", **environment}
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=slave, stderr=slave,
+                                   env=given)
+        os.close(slave)
+        text = b""
+        while True:
+            try:
+                piece = os.read(master, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not piece:
+                break
+            text += piece
+        process.wait()
+        return text.decode()
+
+    def test_colours_are_for_terminals(self):
+        self.succeed("build", "box.GRDECL", "-o", "out.h5")
+        self.assertIn("\x1b[32mout.h5: valid\x1b[0m", self.on_a_terminal("check", "out.h5", NO_COLOR=""))
+        self.assertNotIn("\x1b", self.on_a_terminal("check", "out.h5", NO_COLOR="1"))
+        self.assertNotIn("\x1b", self.on_a_terminal("check", "out.h5", TERM="dumb"))
+        self.assertNotIn("\x1b", self.succeed("check", "out.h5"))
+        self.assertIn("\x1b[31mwellknit:\x1b[0m nowhere.h5", self.on_a_terminal("check", "nowhere.h5", NO_COLOR=""))
+
+    def test_progress_is_plain_lines_where_asked_for(self):
+        result = self.run_program("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "out.h5", "--progress", "plain")
+        self.assertEqual(result.returncode, 0)
+        lines = result.stderr.splitlines()
+        self.assertEqual([line.split()[1] for line in lines], ["read", "mesh", "quality", "write"])
+        self.assertNotIn("\x1b", result.stderr)
+        self.fail_with(2, "build", "box.GRDECL", "-o", "other.h5", "--progress", "much", mention=["auto, plain, off"])
+
+    def test_the_report_of_a_build_comes_with_it(self):
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "out.h5", "--report", "out.html")
+        self.assertIn("near-well mesh", (self.folder / "out.html").read_text())
+        self.fail_with(1, "build", "box.GRDECL", "-o", "other.h5", "--report", "out.html", mention=["out.html", "--overwrite"])
+        self.fail_with(2, "build", "box.GRDECL", "-o", "other.h5", "--report", "other.h5", mention=["two outputs"])
+
+    def interrupted(self, number):
+        """Stopped as soon as something of an output is on the disk."""
+        before = self.files()
+        example = PROJECT / "testdata" / "example"  # large enough for writing to take longer than a signal
+        command = [PROGRAM, "build", example / "example.GRDECL", "-o", "out.h5", "--write", "openfoam=foam", "--write",
+                   "csv=tables", "--report", "out.html"]
+        process = subprocess.Popen(command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while self.files() == before and process.poll() is None:
+            time.sleep(0.001)
+        begin = time.monotonic()
+        process.send_signal(number)
+        _, text = process.communicate(timeout=20)
+        return process.returncode, text, time.monotonic() - begin, sorted(set(self.files()) - set(before))
+
+    def test_a_signal_ends_at_once_and_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number):
+                code, text, seconds, left = self.interrupted(number)
+                self.assertEqual(code, -number, text)  # as the shell expects it of a program that was interrupted
+                self.assertIn("nothing was written", text)
+                self.assertEqual(left, [])
+                self.assertLess(seconds, 5.0)  # machines that do much else; it takes milliseconds
+
+
+class Reference(Case):
+    def test_manual_names_every_option(self):
+        for command in ("build", "check", "report", "solve", "map", "convert", "info"):
+            page = self.succeed("manual", command).replace("\\-", "-")
+            for word in self.succeed(command, "--help").split():
+                if word.startswith("--"):
+                    self.assertIn(word.strip("`").split("=")[0].split(",")[0], page)
+            for part in (".SH NAME", ".SH SYNOPSIS", ".SH OPTIONS", ".SH EXIT STATUS"):
+                self.assertIn(part, page)
+        self.assertIn("wellknit\\-build", self.succeed("manual"))
+        self.fail_with(2, "manual", "nothing", mention=["nothing"])
+
+    def test_bash_completes(self):
+        (self.folder / "complete.bash").write_text(self.succeed("completion", "bash"))
+        for words, expected in (("wellknit ch", "check"), ("wellknit build --mod", "--mode"), ("wellknit build --mode sw", "swept"),
+                                ("wellknit check --lim", "--limits")):
+            script = (f"source complete.bash; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _wellknit;"
+                      'echo "${COMPREPLY[@]}"')
+            out = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+            self.assertEqual(out.split(), [expected], words)
+
+    def test_other_shells(self):
+        for shell, start in (("zsh", "#compdef wellknit"), ("fish", "# fish")):
+            text = self.succeed("completion", shell)
+            self.assertTrue(text.startswith(start))
+            for word in ("heal-throw", "limits", "report"):
+                self.assertIn(word, text)
+        self.fail_with(2, "completion", "tcsh", mention=["bash, zsh or fish"])
+
+
+class Solve(Case):
+    """One vertical well in a box of 300 x 300 x 80 m, 100 mD."""
+
+    def setUp(self):
+        super().setUp()
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=W", "-o", "mesh.h5")
+
+    def solve(self, *arguments):
+        return json.loads(self.succeed("solve", "mesh.h5", "--json", *arguments))
+
+    def test_rates_balance_and_scale_with_the_drawdown(self):
+        one = self.solve("--boundary", "i-,i+=200bar", "--well", "W=190bar")
+        two = self.solve("--boundary", "i-,i+=200bar", "--well", "W=180bar", "--viscosity", "2")
+        well = one["wells"][0]
+        self.assertGreater(well["rate_m3_per_day"], 0)
+        # Twice the drawdown, twice the viscosity: the same rate, half the index.
+        self.assertAlmostEqual(two["wells"][0]["rate_m3_per_day"] / well["rate_m3_per_day"], 1, places=9)
+        self.assertAlmostEqual(one["boundary"]["rate_out_m3_per_day"] / well["rate_m3_per_day"], -1, places=9)
+        self.assertAlmostEqual(sum(c["rate_m3_per_day"] for c in well["connections"]) / well["rate_m3_per_day"], 1, places=12)
+        drop = well["mean_pressure_bar"] - well["pressure_bar"]
+        self.assertAlmostEqual(well["productivity_index_m3_per_day_bar"] * drop / well["rate_m3_per_day"], 1, places=12)
+        self.assertLess(one["balance"]["error"], 1e-10)
+        self.assertTrue(190 <= one["pressure_bar"]["min"] <= one["pressure_bar"]["max"] <= 200)
+
+    def test_rate_gives_back_the_pressure(self):
+        rate = self.solve("--boundary", "all=200bar", "--well", "W=150bar")["wells"][0]["rate_m3_per_day"]
+        again = self.solve("--boundary", "all=200bar", "--well", f"W={rate!r}m3/d", "--solver", "multigrid")
+        self.assertAlmostEqual(again["wells"][0]["pressure_bar"], 150, places=7)
+
+    def test_field_goes_through_undisturbed_by_a_shut_well(self):
+        out = self.solve("--boundary", "all=field", "--field", "100,0.1,0,0", "--well", "W=shut")
+        self.assertEqual(out["wells"][0]["rate_m3_per_day"], 0)
+        self.assertIsNone(out["wells"][0]["pressure_bar"])
+        # From 100 bar at x = 0 to 130 bar at x = 300 m; the first centre stands at 10 m.
+        self.assertAlmostEqual(out["pressure_bar"]["min"], 101, places=1)
+        self.assertAlmostEqual(out["pressure_bar"]["max"], 129, places=1)
+
+    def test_table_holds_cells(self):
+        self.write("hold.csv", "cell,pressure_psi\n0,2900.75476\n5,2900.75476\n")  # 200 bar
+        out = self.solve("--hold", "hold.csv", "--well", "W=100bar")
+        self.assertEqual(out["held_cells"]["cells"], 2)
+        self.assertAlmostEqual(out["pressure_bar"]["max"], 200, places=5)
+        self.write("hold.csv", "cell,pressure\n0,200\n99999999,200\n")
+        self.fail_with(1, "solve", "mesh.h5", "--hold", "hold.csv", mention=["99999999"])
+        self.write("hold.csv", "cell,pressure\n0,two\n")
+        self.fail_with(1, "solve", "mesh.h5", "--hold", "hold.csv", mention=["hold.csv:2", "two"])
+
+    def test_gravity_alone_moves_nothing(self):
+        out = self.solve("--boundary", "all=200bar", "--gravity", "1000", "--well", "W=shut")
+        # Hydrostatic over the 70 m between the first and the last centre: 6.86 bar.
+        self.assertAlmostEqual(out["pressure_bar"]["max"] - out["pressure_bar"]["min"], 70 * 1000 * 9.80665e-5, places=6)
+        self.assertAlmostEqual(out["datum"], 1040, places=6)
+
+    def test_outputs(self):
+        text = self.succeed("solve", "mesh.h5", "--boundary", "all=200bar", "-o", "flow.h5", "--vtu", "flow.vtu")
+        self.assertIn("flow.h5", text)
+        self.assertIn(b'Name="pressure"', (self.folder / "flow.vtu").read_bytes())
+        self.succeed("check", "flow.h5")
+        self.succeed("convert", "flow.h5", "copy.h5")
+        self.assertEqual((self.folder / "flow.h5").read_bytes(), (self.folder / "copy.h5").read_bytes())
+        self.fail_with(1, "solve", "mesh.h5", "-o", "flow.h5", mention=["flow.h5", "--overwrite"])
+        self.fail_with(2, "solve", "mesh.h5", "-o", "mesh.h5", "--overwrite", mention=["mesh.h5"])
+
+    def test_says_when_nothing_can_flow(self):
+        self.assertIn("nothing flows", self.succeed("solve", "mesh.h5"))
+        self.fail_with(1, "solve", "mesh.h5", "--well", "W=500m3/d", mention=["well W", "holds a pressure", "cells"])
+
+    def test_refusals(self):
+        for arguments, words in ((["--well", "X=1bar"], ["X", "W"]), (["--well", "W=3furlong"], ["3furlong", "bar"]),
+                                 (["--well", "W"], ["NAME=VALUE"]), (["--boundary", "north=3bar"], ["north", "i-"]),
+                                 (["--boundary", "all=3m3/d"], ["3m3/d"]), (["--boundary", "all=field"], ["--field"]),
+                                 (["--field", "1,0,0,0"], ["--boundary"]), (["--field", "1,2", "--boundary", "all=field"], ["1,2"]),
+                                 (["--viscosity", "0"], ["--viscosity"]), (["--gravity", "heavy"], ["heavy"]),
+                                 (["--datum", "3"], ["--gravity"]), (["--solver", "magic"], ["magic"]),
+                                 (["--expansion", "3bar"], ["3bar"])):
+            with self.subTest(arguments=arguments):
+                self.fail_with(2, "solve", "mesh.h5", *arguments, mention=words)
+        self.fail_with(1, "solve", "nowhere.h5", mention=["nowhere.h5"])
+
+
+class Map(Case):
+    def setUp(self):
+        super().setUp()
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=W", "-o", "mesh.h5")
+        cells = NX * NY * NZ
+        self.numbers = [round(1.0 + (i * 7919 % 1000) / 1000, 3) for i in range(cells)]
+        self.write("values.GRDECL", f"SPECGRID\n {NX} {NY} {NZ} 1 F /\nODD\n 1 2 /\nMASS\n{values(self.numbers)} /\nSOIL -- a comment\n{cells}*0.7 /\n"
+                   f"FIPNUM\n{NX * NY}*1 {cells - NX * NY}*2 /\n")
+
+    def read(self, name, keyword):
+        words = (self.folder / name).read_text().split(f"\n{keyword}\n", 1)[1].split()
+        out = []
+        for word in words[: words.index("/")]:
+            count, _, value = word.rpartition("*")
+            out += [float(value)] * int(count or 1)
+        return out
+
+    def test_forward_and_back_keep_the_sum(self):
+        report = json.loads(self.succeed("map", "mesh.h5", "--forward", "values.GRDECL", "--sum", "mass", "-o", "out.h5", "--json"))
+        rules = {c["keyword"]: c for c in report["carried"]}
+        self.assertEqual(rules["MASS"]["rule"], "sum")
+        self.assertAlmostEqual(rules["MASS"]["to"]["sum"] / sum(self.numbers), 1, places=12)
+        self.assertAlmostEqual(rules["SOIL"]["to"]["min"], 0.7, places=12)
+        self.assertEqual((rules["FIPNUM"]["to"]["min"], rules["FIPNUM"]["to"]["max"]), (1, 2))
+        self.assertTrue(any("ODD" in note for note in report["notes"]))
+        self.succeed("check", "out.h5")
+        self.succeed("map", "out.h5", "--back", "MASS", "--sum", "MASS", "-o", "mass.GRDECL")
+        self.assertAlmostEqual(sum(self.read("mass.GRDECL", "MASS")) / sum(self.numbers), 1, places=12)
+        self.succeed("map", "out.h5", "--back", "cells/properties/FIPNUM", "-o", "fip.GRDECL")
+        self.assertEqual(self.read("fip.GRDECL", "FIPNUM"), [1.0] * (NX * NY) + [2.0] * (NX * NY * (NZ - 1)))
+
+    def test_only_the_keywords_asked_for(self):
+        report = json.loads(self.succeed("map", "mesh.h5", "--forward", "values.GRDECL", "--keyword", "SOIL", "-o", "out.h5", "--json",
+                                         "--weight", "pore-volume", "--vtu", "out.vtu"))
+        self.assertEqual([c["keyword"] for c in report["carried"]], ["SOIL"])
+        self.assertIn(b'Name="SOIL"', (self.folder / "out.vtu").read_bytes())
+        self.fail_with(2, "map", "mesh.h5", "--forward", "values.GRDECL", "--keyword", "SGAS", "-o", "x.h5", mention=["SGAS", "SOIL"])
+
+    def test_pressure_back(self):
+        self.succeed("solve", "mesh.h5", "--boundary", "all=200bar", "-o", "flow.h5")
+        self.succeed("map", "flow.h5", "--back", "flow/pressure", "-o", "p.GRDECL")
+        found = self.read("p.GRDECL", "PRESSURE")
+        self.assertEqual(len(found), NX * NY * NZ)
+        self.assertTrue(100 < min(found) < max(found) < 200)
+        built = self.succeed("build", "box.GRDECL", "--grid-include", "p.GRDECL", "-o", "with.h5")  # it is read again
+        self.assertIn("with.h5", built)
+        self.fail_with(1, "map", "mesh.h5", "--back", "flow/pressure", "-o", "q.GRDECL", mention=["flow/pressure", "wellknit solve"])
+
+    def test_table_back(self):
+        self.write("table.csv", "cell,kind\n" + "".join(f"{c},3.5\n" for c in range(40)))
+        self.succeed("map", "mesh.h5", "--back", "table.csv", "--keyword", "MINE", "--default", "-1", "-o", "mine.GRDECL")
+        self.assertEqual(set(self.read("mine.GRDECL", "MINE")), {3.5, -1.0})
+        self.write("short.txt", "1.0\n2.0\n")
+        self.fail_with(1, "map", "mesh.h5", "--back", "short.txt", "-o", "x.GRDECL", mention=["short.txt", "2"])
+
+    def test_refusals(self):
+        self.fail_with(2, "map", "mesh.h5", "-o", "x.h5", mention=["--forward", "--back"])
+        self.fail_with(2, "map", "mesh.h5", "--back", "cells/porosity", "-o", "mesh.h5", mention=["mesh.h5"])
+        self.fail_with(2, "map", "mesh.h5", "--back", "cells/porosity", "--keyword", "TOOLONGNAME", "-o", "x.GRDECL", mention=["TOOLONGNAME"])
+        self.fail_with(2, "map", "mesh.h5", "--forward", "values.GRDECL", "--weight", "luck", "-o", "x.h5", mention=["luck"])
+        self.write("few.GRDECL", "PORO\n 1 2 3 /\n")
+        self.fail_with(1, "map", "mesh.h5", "--forward", "few.GRDECL", "-o", "x.h5", mention=["few.GRDECL", "PORO", "1800"])
+        self.write("none.GRDECL", "ODD\n 1 2 3 /\n")
+        self.fail_with(1, "map", "mesh.h5", "--forward", "none.GRDECL", "-o", "x.h5", mention=["none.GRDECL"])
+
+
 class Commands(Case):
     def test_help_and_version(self):
-        for command in ([], ["build"], ["check"], ["info"], ["convert"], ["formats"]):
+        for command in ([], ["build"], ["check"], ["info"], ["convert"], ["report"], ["solve"], ["map"], ["formats"], ["completion"], ["manual"]):
             with self.subTest(command=command):
                 self.assertIn("--help", self.succeed(*command, "--help"))
                 self.assertEqual(self.succeed(*command, "--version").split()[0], "wellknit")
 
     def test_help_names_every_command(self):
         text = self.succeed("--help")
-        for command in ("build", "check", "info", "convert", "formats"):
+        for command in ("build", "check", "info", "convert", "report", "solve", "map", "formats", "completion", "manual"):
             self.assertIn(command, text)
 
     def test_formats(self):
@@ -502,10 +838,12 @@ class Documents(Case):
             self.assertTrue((PROJECT / page).is_file(), page)
 
     def test_every_option_is_explained(self):
-        page = (PROJECT / "docs" / "commands" / "build.md").read_text()
-        for word in self.succeed("build", "--help").split():
-            if word.startswith("--"):
-                self.assertIn(word.split("=")[0].split(",")[0], page)
+        for command in ("build", "check", "info", "convert", "report", "solve", "map", "formats", "completion"):
+            page = (PROJECT / "docs" / "commands" / f"{command}.md").read_text()
+            for word in self.succeed(command, "--help").split():
+                option = word.strip("`").split("=")[0].split(",")[0]
+                if option.startswith("--") and option not in ("--help", "--version"):  # those of every command
+                    self.assertIn(option, page, command)
 
 
 if __name__ == "__main__":

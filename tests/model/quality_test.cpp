@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -104,6 +105,28 @@ TEST(Quality, SortsFacesByTheKindsOfTheirCells) {
   EXPECT_EQ(pair_of(report, FacePair::transition_host).faces, 2 * 12);
   EXPECT_EQ(pair_of(report, FacePair::host).faces, 2 * 8 + 8);
   EXPECT_EQ(pair_of(report, FacePair::radial_host).faces, 0);
+}
+
+TEST(Quality, LinearFluxErrorIsThatOfMadeFacesOutsideOfTubes) {
+  Mesh mesh = meshes::ring_in_boxes();
+  EXPECT_FALSE(quality(mesh).linear_flux.has_value());  // a file without them
+  for (std::size_t i = 0; i < mesh.connections.size(); ++i) {
+    const auto& [a, b] = mesh.connections.cells[ConnectionId(i)];
+    const FacePair pair = face_pair(mesh.cells.kind[a], mesh.cells.kind[b]);
+    const double error = pair == FacePair::transition ? 0.4 : pair == FacePair::transition_host ? 0.1 : 9.0;
+    mesh.connections.linear_flux_error.push_back({error, 2.0 * error, 0.0});
+  }
+  const QualityReport report = quality(mesh);
+  ASSERT_TRUE(report.linear_flux.has_value());
+  EXPECT_EQ(report.linear_flux->faces, 24 + 24);  // the two pairs of the test above
+  const double one = pair_of(report, FacePair::transition).area;
+  const double other = pair_of(report, FacePair::transition_host).area;
+  const double mean = (0.4 * one + 0.1 * other) / (one + other);
+  EXPECT_NEAR(report.linear_flux->area_mean[0], mean, 1e-12);
+  EXPECT_NEAR(report.linear_flux->area_mean[1], 2.0 * mean, 1e-12);
+  EXPECT_EQ(report.linear_flux->max, (std::array{0.4, 0.8, 0.0}));
+  const auto all = figures(report);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Figure& f) { return f.name == "linear_flux_error_max_y"; }));
 }
 
 TEST(Quality, TakesPercentilesBetweenOrderStatistics) {

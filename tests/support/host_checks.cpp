@@ -14,6 +14,12 @@ namespace wellknit {
 
 namespace {
 
+/// Of the mesh: a cell that exists and was not replaced by refined ones.
+bool is_cell(const HostMesh& mesh, HostCellId cell) {
+  const bool is_source = cell.index() < mesh.exists.size() - mesh.refined.size();
+  return mesh.exists[cell] != 0 && !(is_source && mesh.is_refined(cell));
+}
+
 /// A face as one of its cells sees it.
 struct SeenFace {
   FaceId face;
@@ -25,7 +31,7 @@ std::vector<std::vector<SeenFace>> faces_of_cells(const HostMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto [first, second] = mesh.faces.cells[FaceId(f)];
     faces[first.index()].push_back({FaceId(f), true});
-    if (second.is_valid() && mesh.exists[second] == 1) faces[second.index()].push_back({FaceId(f), false});
+    if (second.is_valid() && is_cell(mesh, second)) faces[second.index()].push_back({FaceId(f), false});
   }
   return faces;
 }
@@ -64,8 +70,8 @@ void check_loops(const HostMesh& mesh, HostCheck& out) {
     if (loop.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       out.faults.push_back(fmt::format("face {} has a vertex twice or fewer than three", f));
     const auto [first, second] = mesh.faces.cells[FaceId(f)];
-    const bool both = second.is_valid() && mesh.exists[second] == 1;
-    if (!first.is_valid() || mesh.exists[first] == 0 || (both && !(first < second)))
+    const bool both = second.is_valid() && is_cell(mesh, second);
+    if (!first.is_valid() || !is_cell(mesh, first) || (both && !(first < second)))
       out.faults.push_back(fmt::format("face {} has cells {} and {}", f, first.value(), second.value()));
   }
 }
@@ -160,7 +166,7 @@ TopologyCheck check_topology(const HostMesh& mesh) {
   check_for_copies(mesh, out);
   const auto faces = faces_of_cells(mesh);
   for (std::size_t c = 0; c < faces.size(); ++c) {
-    if (mesh.exists[HostCellId(c)] == 0) continue;
+    if (!is_cell(mesh, HostCellId(c))) continue;
     const Surface surface = surface_of(mesh, faces[c]);
     ++(surface.is_whole ? out.spheres : out.others);
     if (surface.is_whole && surface.euler != 2)
@@ -180,12 +186,13 @@ HostCheck check_host(const CornerPointGrid& grid, const HostMesh& mesh) {
   check_loops(mesh, out);
   const auto faces = faces_of_cells(mesh);
   for (std::size_t c = 0; c < faces.size(); ++c) {
-    if (mesh.exists[HostCellId(c)] == 0) {
+    if (!is_cell(mesh, HostCellId(c))) {
       if (!faces[c].empty()) out.faults.push_back(fmt::format("cell {} does not exist but has faces", c));
       continue;
     }
     ++out.cells;
-    if (grid.active[c] == 0) out.faults.push_back(fmt::format("cell {} exists but is inactive", c));
+    if (c < grid.active.size() && grid.active[c] == 0)
+      out.faults.push_back(fmt::format("cell {} exists but is inactive", c));
     if (const auto loose = loose_edges(mesh, faces[c]); loose > 0)
       out.faults.push_back(fmt::format("cell {} has {} loose edges", c, loose));
     const Vec3 origin = mesh.vertices[mesh.corner(HostCellId(c), 0, 0, 0)];

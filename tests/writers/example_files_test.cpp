@@ -37,7 +37,7 @@ TEST(ExampleFiles, AreWrittenForTheScripts) {
   for (const auto& [name, mesh] : examples()) {
     const std::string base = std::string(folder) + "/" + name;
     for (const WriterFormat& format : writer_formats())
-      format.write(mesh, meshes::provenance(), base + std::string(format.extensions.front()), Overwrite::allow);
+      format.write({mesh, meshes::provenance(), base + std::string(format.extensions.front()), Overwrite::allow});
     write_flow_deck(mesh, base + "_water.data", {FlowFluids::water}, Overwrite::allow);
     std::ofstream(base + "_quality.json") << quality(mesh).to_json();
     EXPECT_TRUE(check_mesh(mesh).empty()) << name;

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "tests/support/meshes.h"
 #include "tests/support/scratch_folder.h"
@@ -27,7 +28,9 @@ TEST(WriterFormats, HaveUniqueNamesAndExtensions) {
         std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document)))
         << format.document;
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"deck", "hdf5", "openfoam", "vtu"}));
+  EXPECT_EQ(names,
+            (std::set<std::string_view>{"adgprs", "csv", "darts", "darts_h5", "deck", "dgf", "fehm", "hdf5", "mrst",
+                                        "openfoam", "opm_grid", "pflotran", "pflotran_h5", "tough", "vtu"}));
 }
 
 TEST(WriterFormats, AreFoundByNameInAnyCase) {
@@ -44,6 +47,21 @@ TEST(WriterFormats, AreFoundByExtensionInAnyCase) {
   EXPECT_EQ(writer_of_path("data.h5/out"), nullptr);
 }
 
+TEST(WriterFormats, HaveKeysThatTakeWhatTheySay) {
+  std::size_t keys = 0;
+  for (const WriterFormat& format : writer_formats())
+    for (const WriterKey& key : writer_keys(format.name)) {
+      ++keys;
+      WriterOptions options;
+      EXPECT_FALSE(key.set(options, "")) << format.name << " " << key.name;
+      std::istringstream values((std::string(key.values)));
+      for (std::string value; std::getline(values, value, '|');)
+        EXPECT_TRUE(key.set(options, value)) << format.name << " " << key.name << " " << value;
+    }
+  EXPECT_GE(keys, 9U);
+  EXPECT_TRUE(writer_keys("stl").empty());
+}
+
 std::uintmax_t bytes_of(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) return std::filesystem::file_size(path);
   std::uintmax_t bytes = 0;
@@ -56,7 +74,7 @@ TEST(WriterFormats, WriteEachAFileOrAFolder) {
   const ScratchFolder folder;
   for (const WriterFormat& format : writer_formats()) {
     const std::string path = folder.file("out" + std::string(format.extensions.front()));
-    format.write(meshes::ring_in_boxes(), meshes::provenance(), path, Overwrite::refuse);
+    format.write({meshes::ring_in_boxes(), meshes::provenance(), path});
     EXPECT_EQ(std::filesystem::is_directory(path), !format.contents.empty()) << format.name;
     EXPECT_GT(bytes_of(path), 1000U) << format.name;
   }

@@ -7,7 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "model/errors.h"
@@ -175,6 +176,107 @@ TEST(WriteFlowDeck, KeepsLinesWithin128Characters) {
   std::istringstream in(written(mesh).text);
   std::string line;
   while (std::getline(in, line)) EXPECT_LE(line.size(), 128U) << line;
+}
+
+FlowDeckOptions in_layout(DeckLayoutKind layout) { return {FlowFluids::oil_and_water, layout, CellOrder::mesh}; }
+
+TEST(WriteFlowDeck, PortableLayoutPutsBoxesWhereTheCellsAre) {
+  const Mesh mesh = meshes::ring_in_boxes();
+  const std::string text = written(mesh, in_layout(DeckLayoutKind::portable)).text;
+  const std::size_t n = mesh.cells.size();
+  EXPECT_EQ(records(text, "DIMENS").front(), " 127 1 1 /");  // 2 * 64 - 1
+  const std::vector<double> coord = array(text, "COORD");
+  ASSERT_EQ(coord.size(), 24 * n);  // two rows of 2 n pillars, six numbers each
+  const std::vector<double> active = array(text, "ACTNUM");
+  for (std::size_t c = 0; c < n; ++c) {
+    const double* first = &coord[6 * (2 * c)];
+    const double* last = &coord[6 * (2 * n + 2 * c + 1)];
+    EXPECT_NEAR(0.5 * (first[0] + last[0]), mesh.cells.center[CellId(c)].x(), 1e-9);
+    EXPECT_NEAR(0.5 * (first[1] + last[1]), mesh.cells.center[CellId(c)].y(), 1e-9);
+    // Every cell is a layer of 5 m.
+    EXPECT_NEAR((last[0] - first[0]) * (last[1] - first[1]) * 5.0 / mesh.cells.volume[CellId(c)], 1.0, 1e-9);
+    EXPECT_EQ(active[2 * c], 1.0);
+    if (c > 0) {
+      EXPECT_EQ(active[2 * c - 1], 0.0);
+    }
+  }
+  EXPECT_EQ(text.find("TRANX"), std::string::npos);  // no boxes touch
+}
+
+TEST(WriteFlowDeck, PortableLayoutHasEveryConnection) {
+  const Mesh mesh = meshes::two_boxes();
+  const std::vector<std::string> nnc = records(written(mesh, in_layout(DeckLayoutKind::portable)).text, "NNC");
+  ASSERT_EQ(nnc.size(), 1U);
+  EXPECT_EQ(nnc[0].substr(0, 15), " 1 1 1 3 1 1 0.");
+}
+
+/// The grid of meshes::box_grid(n).
+CornerPointGrid grid_of_boxes(std::int64_t n) {
+  CornerPointGrid grid;
+  grid.dimensions = {n, n, n};
+  for (std::int64_t j = 0; j <= n; ++j)
+    for (std::int64_t i = 0; i <= n; ++i)
+      grid.coord.insert(grid.coord.end(), {10.0 * static_cast<double>(i), 20.0 * static_cast<double>(j), 1000.0,
+                                           10.0 * static_cast<double>(i), 20.0 * static_cast<double>(j), 3000.0});
+  for (std::int64_t k = 0; k < n; ++k)
+    for (const double base : {0.0, 5.0})
+      grid.zcorn.insert(grid.zcorn.end(), static_cast<std::size_t>(4 * n * n),
+                        2000.0 + 5.0 * static_cast<double>(k) + base);
+  grid.active.assign(static_cast<std::size_t>(n * n * n), 1);
+  return grid;
+}
+
+TEST(WriteFlowDeck, NestedLayoutKeepsTheSourceGrid) {
+  Mesh mesh = meshes::box_grid(3);
+  // The cell in the middle counts as made in the place of source cell 13.
+  mesh.cells.kind[CellId(13)] = CellKind::transition;
+  mesh.cells.source_cell[CellId(13)] = HostCellId();
+  const CornerPointGrid source = grid_of_boxes(3);
+  const ScratchFolder folder;
+  const FlowDeckOptions options = in_layout(DeckLayoutKind::nested);
+  write_flow_deck(mesh, folder.file("out.DATA"), options, Overwrite::refuse, &source);
+  const std::string text = folder.read("out.DATA");
+  EXPECT_EQ(records(text, "DIMENS").front(), " 5 3 3 /");  // a gap and a column beyond the three
+  const std::vector<double> active = array(text, "ACTNUM");
+  ASSERT_EQ(active.size(), 45U);
+  for (std::size_t at = 0; at < 45; ++at) {
+    const bool is_host = at % 5 < 3 && at != 1 + 5 * (1 + 3 * 1);
+    EXPECT_EQ(active[at], is_host || at == 4 ? 1.0 : 0.0) << at;
+  }
+  const std::vector<double> coord = array(text, "COORD");
+  ASSERT_EQ(coord.size(), 6U * 6U * 4U);
+  EXPECT_EQ(coord[6 * 2], 20.0);
+  // Pillars 4 and 5 of row 0 stand around the cell's centre (15, 30): 200 m2 are a square of 14.142 m.
+  EXPECT_NEAR(coord[6 * 4], 15.0 - 0.5 * std::sqrt(200.0), 1e-9);
+  EXPECT_NEAR(coord[6 * 5 + 1], 30.0 - 0.5 * std::sqrt(200.0), 1e-9);
+  EXPECT_EQ(records(text, "NNC").size(), mesh.connections.size());
+  EXPECT_NE(text.find(" MULTZ 0 /"), std::string::npos);
+
+  const std::vector<std::string> names = flow_deck_side_files(folder.file("out.DATA"), options);
+  ASSERT_EQ(names.size(), 3U);
+  EXPECT_EQ(names[1], folder.file("OUT_REFINE.grdecl"));
+  write_flow_deck_side_files(mesh, names, options, Overwrite::refuse, &source);
+  const std::vector<double> level = array(folder.read("OUT_REFINE.grdecl"), "REFINE");
+  const std::vector<double> number = array(folder.read("OUT_CELLS.grdecl"), "MESHCELL");
+  const std::string old = folder.read("OUT_OLDIJK.grdecl");
+  EXPECT_EQ(level[4], 2.0);
+  EXPECT_EQ(std::count(level.begin(), level.end(), 1.0), 44);
+  EXPECT_EQ(number[4], 14.0);
+  EXPECT_EQ(number[1 + 5 * 4], 0.0);  // replaced
+  for (const char* keyword : {"OLDI", "OLDJ", "OLDK"}) EXPECT_EQ(array(old, keyword)[4], 2.0) << keyword;
+}
+
+TEST(WriteFlowDeck, NestedLayoutNeedsItsOwnSource) {
+  const ScratchFolder folder;
+  const FlowDeckOptions options = in_layout(DeckLayoutKind::nested);
+  const Mesh mesh = meshes::box_grid(3);
+  EXPECT_THROW(write_flow_deck(mesh, folder.file("out.DATA"), options), InvalidInput);
+  const CornerPointGrid other = grid_of_boxes(2);
+  EXPECT_THROW(write_flow_deck(mesh, folder.file("out.DATA"), options, Overwrite::refuse, &other), InvalidInput);
+  CornerPointGrid far = grid_of_boxes(3);
+  for (double& depth : far.zcorn) depth += 500.0;
+  EXPECT_THROW(write_flow_deck(mesh, folder.file("out.DATA"), options, Overwrite::refuse, &far), InvalidInput);
+  EXPECT_EQ(folder.count(), 0U);
 }
 
 TEST(WriteFlowDeck, RefusesAMeshWithoutCells) {

@@ -82,6 +82,54 @@ TEST(MeshFile, RoundTripKeepsValuesThatAreNotFinite) {
   expect_equal(mesh, round_trip(mesh).mesh);
 }
 
+TEST(MeshFile, RoundTripKeepsAFlowSolutionAndTheSourceVolumes) {
+  Mesh mesh = meshes::box_grid(2);
+  EXPECT_FALSE(round_trip(mesh).mesh.flow.has_value());
+  EXPECT_TRUE(round_trip(mesh).mesh.source_volumes.bulk.empty());
+  FlowSolution& flow = mesh.flow.emplace();
+  double next = 0.5;
+  const auto fill = [&](auto& values, std::size_t count) {
+    values.resize(count);
+    for (double& value : values) value = next *= 1.25;
+  };
+  std::size_t well_connections = 0;
+  for (const MeshWell& well : mesh.wells) well_connections += well.connections.size();
+  fill(flow.pressure, mesh.cells.size());
+  fill(flow.flux, mesh.connections.size());
+  fill(flow.well_pressure, mesh.wells.size());
+  fill(flow.well_rate, mesh.wells.size());
+  fill(flow.well_connection_rate, well_connections);
+  flow.command = "wellknit solve --boundary all=200bar";
+  for (std::size_t i = 0; i < mesh.connections.size(); ++i)
+    mesh.connections.linear_flux_error.push_back(Vec3(0.25, 0.5, 0.125) * static_cast<double>(i));
+  fill(mesh.source_volumes.bulk, 8);
+  fill(mesh.source_volumes.pores, 8);
+  const Mesh found = round_trip(mesh).mesh;
+  ASSERT_TRUE(found.flow.has_value());
+  EXPECT_EQ(found.flow->pressure.raw(), flow.pressure.raw());
+  EXPECT_EQ(found.flow->flux.raw(), flow.flux.raw());
+  EXPECT_EQ(found.flow->well_pressure.raw(), flow.well_pressure.raw());
+  EXPECT_EQ(found.flow->well_rate.raw(), flow.well_rate.raw());
+  EXPECT_EQ(found.flow->well_connection_rate, flow.well_connection_rate);
+  EXPECT_EQ(found.flow->command, flow.command);
+  EXPECT_EQ(found.connections.linear_flux_error.raw(), mesh.connections.linear_flux_error.raw());
+  EXPECT_EQ(found.source_volumes.bulk, mesh.source_volumes.bulk);
+  EXPECT_EQ(found.source_volumes.pores, mesh.source_volumes.pores);
+}
+
+TEST(MeshFile, RefusesLinearFluxErrorsThatDoNotFit) {
+  Mesh mesh = meshes::box_grid(2);
+  EXPECT_TRUE(round_trip(mesh).mesh.connections.linear_flux_error.empty());
+  mesh.connections.linear_flux_error.resize(3);
+  EXPECT_THROW((void)round_trip(mesh), ParseError);
+}
+
+TEST(MeshFile, RefusesAFlowSolutionThatDoesNotFit) {
+  Mesh mesh = meshes::box_grid(2);
+  mesh.flow.emplace().pressure.resize(3);
+  EXPECT_THROW((void)round_trip(mesh), ParseError);
+}
+
 TEST(MeshFile, RoundTripKeepsTheProvenance) {
   const Provenance found = round_trip(meshes::two_boxes()).provenance;
   const Provenance expected = meshes::provenance();

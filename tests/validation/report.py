@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 The wellknit authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables and pictures of docs/validation.md from the results. A table stands between <!-- NAME --> and <!-- end -->;
+the text
+around it is written by hand."""
+import json
+import re
+
+import pictures
+from fields import closer
+
+HEAD = ("ours", "corner point, Peaceman", "4 × 4 finer")
+MESHES = ("knit", "corner_point", "finer")
+
+
+def percent(value, digits=2):
+    return f"{100 * value:.{digits}f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join("---" for _ in head) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(str(c) for c in row) + " |" for row in rows])
+
+
+def compared(result):
+    """Errors of the rates in %, by well; the largest error of the pressure along the line; cells."""
+    rows = []
+
+    def tube(w):
+        by_index = f", {w['index_connections']} by index" if w["index_connections"] else ""
+        return f"{w['mode']} {w['drainage_radius']:.3g} m{by_index}"
+
+    for name, row in result.items():
+        errors = [", ".join(percent(e) for e in row[m]["errors"]) for m in MESHES]
+        line = [percent(max((abs(e) for _, e in row[m]["line"]), default=float("nan"))) for m in MESHES]
+        wells = row["knit"]["wells"]
+        tubes = ", ".join(tube(w) for w in wells)
+        rows.append([name, *errors, " / ".join(line), " / ".join(f"{row[m]['cells']:,}" for m in MESHES), tubes])
+    return table(["case", *(f"{h}, %" for h in HEAD), "pressure along a line, %", "cells", "our tubes"], rows)
+
+
+def attribution(result):
+    names = sorted({n for row in result.values() for n in row["parts"]})
+    rows = [[name, percent(row["error"]), *(percent(row["parts"].get(n, 0.0)) for n in names)]
+            for name, row in result.items()]
+    return table(["case", "error, %", *names], rows)
+
+
+def patch(result):
+    rows = []
+    for deform, row in result.items():
+        for mesh, label in (("knit", "ours"), ("corner_point", "corner point")):
+            for kinds, (count, mean, high, most) in row[mesh]["flux"].items():
+                rows.append([deform, label, kinds, count, percent(mean), percent(high), percent(most)])
+    return table(["deform", "mesh", "connections", "number", "mean, %", "95 % below, %", "largest, %"], rows)
+
+
+def patch_pressure(result):
+    rows = [[deform, label, *(f"{e:.1e}" for e in row[mesh]["pressure"])]
+            for deform, row in result.items() for mesh, label in (("knit", "ours"), ("corner_point", "corner point"))]
+    return table(["deform", "mesh", "slope along x", "along y", "along depth"], rows)
+
+
+def field(result):
+    rows = []
+    for boundary, label in (("closed", "closed sides"), ("sides", "sides held at 200 bar")):
+        for reference, parts in (("finer4", "4 × 4"), ("finer5", "5 × 5")):
+            errors, share = closer(result, boundary, reference)
+            ours, theirs = ([abs(e[n]) for e in errors.values()] for n in (0, 1))
+            rows.append([label, parts, f"{round(share * len(errors))} of {len(errors)}",
+                         *(percent(sum(e) / len(e), 1) for e in (ours, theirs)),
+                         *(percent(max(e), 1) for e in (ours, theirs))])
+    cells = ", ".join(f"{result[m]['cells']:,}" for m in ("knit", "corner_point", "finer4", "finer5"))
+    head = ["boundary", "reference", "ours closer", "mean error ours, %", "corner point, %", "largest ours, %",
+            "corner point, %"]
+    return table(head, rows) + f"\n\nCells of ours, the corner-point grid, 4 × 4, 5 × 5: {cells}."
+
+
+def pore_volume(result):
+    rows = [[model, region, f"{total:.6g}", f"{by_map:.1e}", f"{by_cell:.1e}"]
+            for model, regions in result.items() for region, (total, by_map, by_cell) in regions.items()]
+    head = ["model", "FIPNUM", "pore volume, m³", "error by the transfer map", "error by the cells' FIPNUM"]
+    return table(head, rows)
+
+
+def worst_of(result, chosen):
+    return max(abs(e) for name, row in result.items() if chosen(name) for e in row["knit"]["errors"])
+
+
+def verdicts(results):
+    """What the suite asks for, and what there is."""
+    rows = []
+
+    def row(what, limit, value, unit=" %", scale=100):
+        met = "yes" if scale * value <= limit else "**no**"
+        rows.append([what, f"{limit:g}{unit}", f"{scale * value:.3g}{unit}" if unit else f"{value:.1e}", met])
+
+    for deform, limit in (("0", 0.5), ("0.5", 1), ("1", 2)):
+        if "thiem" in results:
+            row(f"Thiem, deform {deform}", limit, worst_of(results["thiem"], lambda n: n.endswith(f"deform {deform}")))
+    for name, what, limit in (("boundary", "well near a boundary", 2), ("two_wells", "two wells", 2),
+                              ("layered", "layers of a factor 1,000", 1)):
+        for deform in ("0", "0.5", "1"):
+            if name in results:
+                row(f"{what}, deform {deform}", limit,
+                    worst_of(results[name], lambda n: n.endswith(f"deform {deform}")))
+    for kind in ("slanted", "horizontal"):
+        for ratio in ("1", "0.1", "0.01"):
+            for deform in ("0", "0.5", "1"):
+                if "line_wells" in results:
+                    row(f"{kind} well, k_v/k_h {ratio}, deform {deform}", 2,
+                        worst_of(results["line_wells"], lambda n: n == f"{kind}, k_v/k_h {ratio}, deform {deform}"))
+    if "patch" in results:
+        for mesh, label in (("corner_point", "box grid without a well"), ("knit", "box grid with a shut well")):
+            row(f"linear pressure, {label}", 1e-10, max(results["patch"]["0"][mesh]["pressure"]), "", 1)
+    for model in ("SPE9", "MODEL5"):
+        if f"field_{model}" in results:
+            share = closer(results[f"field_{model}"], "closed", "finer4")[1]
+            rows.append([f"{model}: wells closer to the 4 × 4 grid, closed sides", "80 %", f"{100 * share:.0f} %",
+                         "yes" if share >= 0.8 else "**no**"])
+    if "pore_volume" in results:
+        row("pore volume of regions, by the transfer map", 1e-9,
+            max(abs(r[1]) for m in results["pore_volume"].values() for r in m.values()), "", 1)
+    return table(["figure (errors of the well's rate where nothing else is said)", "limit", "largest", "met"], rows)
+
+
+TABLES = {"thiem": compared, "boundary": compared, "two_wells": compared, "line_wells": compared, "layered": compared,
+          "attribution": attribution, "patch": patch, "patch_pressure": patch_pressure, "field_SPE9": field,
+          "field_MODEL5": field, "pore_volume": pore_volume}
+FILES = {"patch_pressure": "patch"}
+
+
+def write(work, docs):
+    page = docs / "validation.md"
+    text = page.read_text(encoding="utf-8")
+    results = {}
+    for name, make in TABLES.items():
+        path = work / f"{FILES.get(name, name)}.json"
+        if not path.exists():
+            print(f"{name}: no results in {work}, its table stays")
+            continue
+        results[name] = json.loads(path.read_text(encoding="ascii"))
+        block = f"<!-- {name} -->\n{make(results[name])}\n<!-- end -->"
+        text, count = re.subn(rf"<!-- {name} -->\n.*?<!-- end -->", lambda _: block, text, flags=re.DOTALL)
+        if count != 1:
+            raise SystemExit(f"{page}: expected one <!-- {name} -->, found {count}")
+    block = f"<!-- verdicts -->\n{verdicts(results)}\n<!-- end -->"
+    text = re.sub(r"<!-- verdicts -->\n.*?<!-- end -->", lambda _: block, text, flags=re.DOTALL)
+    page.write_text(text, encoding="utf-8")
+    pictures.write(results, docs / "images")
