@@ -9,12 +9,14 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # Without these ccache keeps nothing that uses precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 set(WELLKNIT_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (address,undefined or thread)")
 option(WELLKNIT_COVERAGE "Instrument algorithm/ for line coverage" OFF)
 option(WELLKNIT_WERROR "Warnings are errors" ON)
+option(WELLKNIT_PRECOMPILE "Compile the headers that most sources include once for each target" ON)
 
 add_library(wellknit_options INTERFACE)
 # No contraction: the same input gives the same bytes on every machine of one architecture.
@@ -39,6 +41,14 @@ if(WELLKNIT_COVERAGE)
   target_link_options(wellknit_options INTERFACE --coverage)
 endif()
 
+# wellknit_precompile(TARGET HEADERS…): the headers that most sources include, compiled once.
+function(wellknit_precompile target)
+  if(WELLKNIT_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h ${ARGN})
+    target_compile_options(${target} PRIVATE $<IF:$<CXX_COMPILER_ID:GNU>,-fpch-preprocess,SHELL:-Xclang -fno-pch-timestamp>)
+  endif()
+endfunction()
+
 # wellknit_library(NAME SOURCES… LINK targets…): one static library, headers included from the project's root.
 function(wellknit_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;PRIVATE_LINK")
@@ -50,4 +60,5 @@ function(wellknit_library name)
                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/wellknit>)
   target_compile_features(wellknit_${name} PUBLIC cxx_std_20)
   target_link_libraries(wellknit_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:wellknit_options> ${arg_PRIVATE_LINK})
+  wellknit_precompile(wellknit_${name})
 endfunction()

@@ -21,7 +21,6 @@ namespace wellknit {
 namespace {
 
 constexpr double thinnest_box = 1e-4;  ///< m; Flow drops cells without thickness, and kept 1e-5 m when it was tried
-constexpr double longest_row = 1e6;    ///< m, of all boxes side by side: single precision still resolves 0.06 m there
 constexpr double flow_smallest_nnc = 1e-6;  ///< in deck units; Flow sets smaller ones to zero
 
 std::string_view transmissibility_unit_name(UnitSystem units) {

@@ -197,9 +197,10 @@ TEST(HostMesh, HoldsItsPropertiesOverRandomGrids) {
   RandomTally tally;
   for (std::uint32_t seed = 1; seed <= rounds(300U); ++seed) expect_sound(seed, tally);
   expect_usual(tally);
-  EXPECT_LT(tally.refused, rounds(60));  // else the grids would not try what they are for
+  if constexpr (has_few_rounds) return;  // too few to meet every oddity
+  EXPECT_LT(tally.refused, 60);          // else the grids would not try what they are for
   for (std::size_t n = 0; n < grid_oddity_count; ++n)
-    EXPECT_GT(tally.oddities[n], rounds(10)) << name_of(static_cast<GridOddity>(n));
+    EXPECT_GT(tally.oddities[n], 10) << name_of(static_cast<GridOddity>(n));
 }
 
 TEST(HostMesh, HoldsItsPropertiesOverFreshRandomGrids) {
