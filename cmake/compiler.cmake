@@ -25,7 +25,7 @@ target_compile_options(wellknit_options INTERFACE -ffp-contract=off -Wall -Wextr
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
   target_compile_options(wellknit_options INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized -Wno-array-bounds
-                                                    -Wno-restrict)
+                                                    -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(WELLKNIT_WERROR)
   target_compile_options(wellknit_options INTERFACE -Werror)
