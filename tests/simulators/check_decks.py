@@ -6,7 +6,7 @@
 
 Without CASE: the small deck of the command-line tests, without a well and with one. Each CASE is converted without a
 well. Every summary vector and every cell's pressure must agree to 1e-3 of its largest value over the whole history;
-with tolerances of the solver so tight that its own error lies far below. Ends with 77 where flow, the module or a CASE
+with tolerances of the solver so tight that its own error lies below. Ends with 77 where flow, the module or a CASE
 is not there.
 """
 import argparse
@@ -18,8 +18,9 @@ import sys
 import tempfile
 
 SKIPPED = 77
-TIGHT = ["--tolerance-cnv=1e-6", "--tolerance-mb=1e-9", "--linear-solver-reduction=1e-8", "--tolerance-cnv-relaxed=1e-6",
-         "--tolerance-wells=1e-7", "--newton-max-iterations=30", "--threads-per-process=1"]
+# Tighter by two more powers of ten SPE 9 itself does not converge: whether it does differs from processor to processor.
+TIGHT = ["--tolerance-cnv=1e-4", "--tolerance-mb=1e-8", "--linear-solver-reduction=1e-6", "--tolerance-cnv-relaxed=1e-4",
+         "--tolerance-wells=1e-6", "--newton-max-iterations=30", "--threads-per-process=1"]
 NO_RESULT = {"TIME", "YEARS", "TCPU", "TIMESTEP"}
 
 
