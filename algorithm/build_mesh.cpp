@@ -86,9 +86,12 @@ class Builder {
     note_empty_cells(assembly.mesh);
     note_volumes(assembly);
     const HostMultipliers multipliers(grid_);
-    connect_cells({grid_, host_, *locator_, multipliers, wells_}, assembly);
+    FluxDefects defects;
+    connect_cells({grid_, host_, *locator_, multipliers, wells_}, assembly,
+                  options_.fluxes == Fluxes::consistent ? &defects : nullptr);
     for (std::string& note : edit_connections(grid_, host_, multipliers, assembly))
       result_.summary.notes.push_back(std::move(note));
+    if (options_.fluxes == Fluxes::consistent) assembly.mesh.stencils = consistent_fluxes(assembly.mesh, defects);
     add_wells(assembly);
     number_segments(assembly);
     clock_.lap("connections");

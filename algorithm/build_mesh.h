@@ -27,12 +27,19 @@ enum class FaultPolicy {
   heal   ///< small throws near the wells are averaged out first (heal_faults.h); at others it stops
 };
 
+/// What the mesh has for flow between cells.
+enum class Fluxes {
+  two_point,  ///< transmissibilities
+  consistent  ///< multi-point fluxes too (consistent_flux.h)
+};
+
 struct BuildOptions {
   MappingMethod mapping = MappingMethod::automatic;
   int threads = 0;             ///< 0: as many as the machine has; the result does not depend on it
   int refinement_levels = -1;  ///< of source columns near wells, each into two along i and j; 0: none; -1: automatic
   FaultPolicy fault_policy = FaultPolicy::stop;
   std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
+  Fluxes fluxes = Fluxes::two_point;
 };
 
 /// A radial mesh along a stretch of a well.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -73,19 +74,44 @@ class Connector {
     }
   }
 
-  void connect() {
+  void connect(FluxDefects* defects) {
+    wants_defects_ = defects != nullptr;
     std::vector<Flux> fluxes(mesh_.faces.size());
     tbb::parallel_for(std::size_t{0}, fluxes.size(), [&](std::size_t f) {
       if (mesh_.faces.cells[FaceId(f)][1].is_valid()) fluxes[f] = flux_of(FaceId(f));
     });
     for (std::size_t f = 0; f < fluxes.size(); ++f)
       if (mesh_.faces.cells[FaceId(f)][1].is_valid()) add(FaceId(f), fluxes[f]);
+    if (defects == nullptr) return;
+    for (std::size_t f = 0; f < fluxes.size(); ++f) {
+      const auto [a, b] = mesh_.faces.cells[FaceId(f)];
+      if (!b.is_valid()) continue;
+      const auto& [first, second] = fluxes[f].defects;
+      if (const auto& near = fluxes[f].near) {
+        defects->near_wells.push_back({ConnectionId(defects->ratio.size()), near->radial, *near->field, near->linear});
+        if (b < a) defects->near_wells.back().field.flux *= -1.0;
+      }
+      defects->ratio.push_back(fluxes[f].ratio);
+      defects->of_connection.push_back(b < a ? std::array<Vec3, 2>{-second, -first}
+                                             : std::array<Vec3, 2>{first, second});
+    }
+    defects->permeability = std::move(tensors_);
   }
 
  private:
+  /// What the flow towards a well does to a linear transmissibility.
+  struct NearWell {
+    double factor = 1.0;
+    double radial = 0.0;  ///< how far the flow is the well's
+    std::optional<WellField> field;
+    double linear = 0.0;  ///< m3, in rock of one permeability
+  };
   struct Flux {
     double transmissibility = 0.0;  ///< m3, without multiplier
     Vec3 linear_error = Vec3::Zero();
+    std::array<Vec3, 2> defects{Vec3::Zero(), Vec3::Zero()};
+    double ratio = 1.0;
+    std::unique_ptr<NearWell> near;  ///< only where the flow is a well's
   };
   struct Sides {
     HalfFace first;
@@ -108,8 +134,31 @@ class Connector {
     const std::vector<Vec3> points = points_of(face);
     const PolygonGeometry g = polygon_geometry(points);
     const auto [first, second] = sides_of(face, g);
-    const double t = transmissibility(first, second, points, g);
-    return {t, linear_flux_error(first, second, t)};
+    NearWell near;
+    const double t = transmissibility(first, second, points, g, near);
+    Flux out;
+    out.transmissibility = t;
+    out.linear_error = linear_flux_error(first, second, t);
+    if (wants_defects_ && t > 0.0) {
+      out.defects = defects(first, second);
+      out.ratio = 1.0 / near.factor;
+      if (near.field) out.near = std::make_unique<NearWell>(std::move(near));
+    }
+    return out;
+  }
+
+  /// Of the sides as the face has them. Beside a tube nothing is left out: the pressure is that of the well, not
+  /// linear.
+  [[nodiscard]] std::array<Vec3, 2> defects(const HalfFace& first, const HalfFace& second) const {
+    if (mesh_.cells.kind[first.cell] == CellKind::radial || mesh_.cells.kind[second.cell] == CellKind::radial)
+      return {Vec3::Zero(), Vec3::Zero()};
+    const Vec3& a = first.area_vector;
+    const Vec3 to_face = first.centroid - mesh_.cells.center[first.cell];
+    const Vec3 from_face = mesh_.cells.center[second.cell] - second.centroid;
+    const double t1 = half(first);
+    const double t2 = half(second);
+    if (!(t1 > 0.0) || !(t2 > 0.0)) return {Vec3::Zero(), Vec3::Zero()};
+    return {tensors_[first.cell.index()] * a / t1 - to_face, tensors_[second.cell.index()] * a / t2 - from_face};
   }
 
   void add(FaceId face, const Flux& flux) {
@@ -160,7 +209,7 @@ class Connector {
 
   /// Without multiplier.
   [[nodiscard]] double transmissibility(const HalfFace& first, const HalfFace& second, std::span<const Vec3> points,
-                                        const PolygonGeometry& geometry) const {
+                                        const PolygonGeometry& geometry, NearWell& near) const {
     const bool is_of_host = first.info.host_face.is_valid();
     const auto& known = host_.faces.transmissibility;
     if (is_of_host && known.empty()) return 0.0;
@@ -172,16 +221,18 @@ class Connector {
     const FaceRole role = first.info.role;
     const bool is_inside = role == FaceRole::host || role == FaceRole::general;
     const bool is_whole = first.info.is_fault == 0 && first.info.is_pinch == 0;
-    return linear * (is_inside && is_whole ? near_well_factor(first, second, {t1, t2}, points, geometry) : 1.0);
+    if (!is_inside || !is_whole) return linear;
+    near = near_well_factor(first, second, {t1, t2}, points, geometry);
+    return linear * near.factor;
   }
 
   [[nodiscard]] bool is_untouched(CellId cell) const { return mesh_.cells.kind[cell] == CellKind::host; }
 
   /// Of the flow's form near wells: the same on both sides, from the linear transmissibility in rock of one
   /// permeability.
-  [[nodiscard]] double near_well_factor(const HalfFace& first, const HalfFace& second, const std::array<double, 2>& t,
-                                        std::span<const Vec3> points, const PolygonGeometry& geometry) const {
-    if (assembly_.tubes.empty()) return 1.0;
+  [[nodiscard]] NearWell near_well_factor(const HalfFace& first, const HalfFace& second, const std::array<double, 2>& t,
+                                          std::span<const Vec3> points, const PolygonGeometry& geometry) const {
+    if (assembly_.tubes.empty()) return {};
     const Eigen::Matrix3d& k1 = tensors_[first.cell.index()];
     const Eigen::Matrix3d& k2 = tensors_[second.cell.index()];
     const Eigen::Matrix3d k = 0.5 * (k1 + k2);
@@ -191,7 +242,8 @@ class Connector {
         first.info.role == FaceRole::general ? permeability_cosine(k, a, centers[1] - centers[0]) : 1.0;
     const double across = a.dot(k * a);
     const double linear = oblique * in_series(t[0] * across / a.dot(k1 * a), t[1] * across / a.dot(k2 * a));
-    return oblique * radial_flow_.factor({centers, points, geometry, k, linear});
+    const RadialFlow::Factor factor = radial_flow_.factor({centers, points, geometry, k, linear});
+    return {oblique * factor.value, factor.radial, factor.field, linear / oblique};
   }
 
   /// A face of the corner-point grid has its own multiplier. Any other has those of the grid's faces that the line
@@ -296,11 +348,14 @@ class Connector {
   Mesh& mesh_;
   RadialFlow radial_flow_;
   std::vector<Eigen::Matrix3d> tensors_;  ///< of all cells, along their own axes
-  std::vector<std::int64_t> tube_end_;    ///< one past the last cell of each tube
+  bool wants_defects_ = false;
+  std::vector<std::int64_t> tube_end_;  ///< one past the last cell of each tube
 };
 
 }  // namespace
 
-void connect_cells(const FlowInput& input, Assembly& assembly) { Connector(input, assembly).connect(); }
+void connect_cells(const FlowInput& input, Assembly& assembly, FluxDefects* defects) {
+  Connector(input, assembly).connect(defects);
+}
 
 }  // namespace wellknit

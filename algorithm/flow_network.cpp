@@ -53,11 +53,32 @@ std::vector<std::int32_t> rows_of(const FlowNetwork& network, const NetworkParts
 /// Conductances between free nodes, and what fixed and held potentials and sources push into them.
 class Equation {
  public:
-  Equation(const FlowNetwork& network, const std::vector<std::int32_t>& row, std::int32_t count, double reference)
-      : row_(row), diagonal_(static_cast<std::size_t>(count), 0.0), right_(Eigen::VectorXd::Zero(count)) {
+  enum class Form : std::uint8_t { two_point, whole };
+
+  Equation(const FlowNetwork& network, const std::vector<std::int32_t>& row, std::int32_t count, double reference,
+           Form form)
+      : network_(network),
+        reference_(reference),
+        row_(row),
+        diagonal_(static_cast<std::size_t>(count), 0.0),
+        right_(Eigen::VectorXd::Zero(count)) {
     entries_.reserve(2 * network.links.size() + diagonal_.size());
-    for (const auto& [a, b, conductance] : network.links) add(network, a, b, conductance, reference);
-    for (const auto& [node, conductance, potential] : network.holds) hold(at(node), conductance, potential - reference);
+    for (const FlowNetwork::Link& link : network.links) {
+      if (form == Form::two_point || link.stencil.empty()) {
+        add(link.a, link.b, link.conductance);
+      } else {
+        add(at(link.a), link.stencil, 1.0);
+        add(at(link.b), link.stencil, -1.0);
+      }
+    }
+    for (const FlowNetwork::Hold& held : network.holds) {
+      if (form == Form::two_point || held.stencil.empty()) {
+        hold(at(held.node), held.conductance, held.potential - reference);
+      } else {
+        add(at(held.node), held.stencil, 1.0);
+        if (at(held.node) != no_row) right_[at(held.node)] += held.conductance * (held.potential - reference);
+      }
+    }
     for (std::size_t n = 0; n < row.size(); ++n)
       if (row[n] != no_row) right_[row[n]] += network.source[n];
   }
@@ -80,11 +101,14 @@ class Equation {
     right_[row] += conductance * potential;
   }
 
-  void add(const FlowNetwork& network, Node a, Node b, double conductance, double reference) {
-    const auto fixed = [&](Node node) { return network.fixed[static_cast<std::size_t>(node)]; };
+  [[nodiscard]] const std::optional<double>& fixed(Node node) const {
+    return network_.fixed[static_cast<std::size_t>(node)];
+  }
+
+  void add(Node a, Node b, double conductance) {
     if (at(a) == no_row || at(b) == no_row) {
-      if (fixed(b)) hold(at(a), conductance, *fixed(b) - reference);
-      if (fixed(a)) hold(at(b), conductance, *fixed(a) - reference);
+      if (fixed(b)) hold(at(a), conductance, *fixed(b) - reference_);
+      if (fixed(a)) hold(at(b), conductance, *fixed(a) - reference_);
       return;
     }
     diagonal_[static_cast<std::size_t>(at(a))] += conductance;
@@ -93,6 +117,22 @@ class Equation {
     entries_.emplace_back(at(b), at(a), -conductance);
   }
 
+  /// A flow out of the row's node.
+  void add(std::int32_t row, const FlowStencil& stencil, double sign) {
+    if (row == no_row) return;
+    for (std::size_t n = 0; n < stencil.nodes.size(); ++n) {
+      const auto node = static_cast<Node>(stencil.nodes[n].value());
+      const double value = sign * stencil.scale * stencil.coefficients[n];
+      if (at(node) != no_row) {
+        entries_.emplace_back(row, at(node), value);
+      } else if (fixed(node)) {
+        right_[row] -= value * (*fixed(node) - reference_);
+      }
+    }
+  }
+
+  const FlowNetwork& network_;
+  double reference_;
   const std::vector<std::int32_t>& row_;
   std::vector<double> diagonal_;
   std::vector<Eigen::Triplet<double, std::int32_t>> entries_;
@@ -127,8 +167,15 @@ NetworkSolution solve(const FlowNetwork& network, const NetworkParts& parts, con
   std::int32_t count = 0;
   const std::vector<std::int32_t> row = rows_of(network, parts, count);
   {
-    Equation equation(network, row, count, out.reference);
-    out.equation = solve_pressure(equation.matrix(), equation.right(), options);
+    Equation equation(network, row, count, out.reference, Equation::Form::whole);
+    const bool is_two_point = std::all_of(network.links.begin(), network.links.end(),
+                                          [](const FlowNetwork::Link& link) { return link.stencil.empty(); });
+    if (is_two_point) {
+      out.equation = solve_pressure(equation.matrix(), equation.right(), options);
+    } else {
+      Equation near(network, row, count, out.reference, Equation::Form::two_point);
+      out.equation = solve_pressure(equation.matrix(), near.matrix(), equation.right(), options);
+    }
   }
   out.potential.assign(network.node_count(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t n = 0; n < out.potential.size(); ++n) {

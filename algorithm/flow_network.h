@@ -7,11 +7,27 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "algorithm/pressure_solver.h"
+#include "model/ids.h"
 
 namespace wellknit {
+
+/// Flow as coefficients of nodes' potentials. They point into arrays that outlive the network.
+struct FlowStencil {
+  std::span<const CellId> nodes;  ///< cells are the first nodes
+  std::span<const double> coefficients;
+  double scale = 1.0;
+
+  [[nodiscard]] bool empty() const { return nodes.empty(); }
+  [[nodiscard]] double flow(std::span<const double> potential) const {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) sum += coefficients[n] * potential[nodes[n].index()];
+    return scale * sum;
+  }
+};
 
 struct FlowNetwork {
   using Node = std::int32_t;
@@ -19,12 +35,14 @@ struct FlowNetwork {
     Node a = 0;
     Node b = 0;
     double conductance = 0.0;  ///< positive
+    FlowStencil stencil;       ///< empty: conductance * (potential of a - potential of b)
   };
   /// A link to something that keeps its potential.
   struct Hold {
     Node node = 0;
     double conductance = 0.0;  ///< positive
     double potential = 0.0;
+    FlowStencil stencil;  ///< of the nodes' part; empty: conductance * potential of the node
   };
 
   std::vector<std::optional<double>> fixed;  ///< one a node: its potential, where that is given

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "model/errors.h"
 
@@ -28,6 +29,9 @@ class DirectSolver {
     factor_.compute(Eigen::SparseMatrix<double>(scale_.asDiagonal() * matrix * scale_.asDiagonal()));
     if (factor_.info() != Eigen::Success) throw InvalidInput("the pressure equation is singular");
   }
+  [[nodiscard]] VectorXd approximate(const VectorXd& r) const {
+    return scale_.cwiseProduct(factor_.solve(scale_.cwiseProduct(r)));
+  }
   [[nodiscard]] VectorXd solve(const VectorXd& r, double /*enough*/, int& passes) const {
     ++passes;
     return scale_.cwiseProduct(factor_.solve(scale_.cwiseProduct(r)));
@@ -43,6 +47,9 @@ class MultigridSolver {
  public:
   MultigridSolver(const SparseMatrix& matrix, const PressureSolverOptions& options)
       : matrix_(matrix), options_(options), multigrid_(matrix) {}
+
+  /// One cycle.
+  [[nodiscard]] VectorXd approximate(const VectorXd& r) const { return multigrid_.apply(r); }
 
   /// Until the residual's norm is `enough`.
   [[nodiscard]] VectorXd solve(const VectorXd& right, double enough, int& iterations) const {
@@ -72,6 +79,49 @@ class MultigridSolver {
   AggregationMultigrid multigrid_;
 };
 
+/// Generalised conjugate residuals (key `EisenstatElmanSchultz1983`), begun again after some steps; the preconditioner
+/// need not be linear.
+template <class Near>
+class NearbySolver {
+ public:
+  NearbySolver(const SparseMatrix& matrix, const Near& near, const PressureSolverOptions& options)
+      : matrix_(matrix), near_(near), options_(options) {}
+
+  [[nodiscard]] VectorXd solve(const VectorXd& right, double enough, int& iterations) const {
+    VectorXd x = VectorXd::Zero(right.size());
+    VectorXd r = right;
+    std::vector<VectorXd> directions;
+    std::vector<VectorXd> images;  // orthonormal
+    for (; iterations < options_.most_iterations && r.norm() > enough; ++iterations) {
+      if (directions.size() == most_kept) {
+        directions.clear();
+        images.clear();
+      }
+      VectorXd direction = near_.approximate(r);
+      VectorXd image = matrix_ * direction;
+      for (std::size_t n = 0; n < images.size(); ++n) {
+        const double part = image.dot(images[n]);
+        image -= part * images[n];
+        direction -= part * directions[n];
+      }
+      const double size = image.norm();
+      if (!(size > 0.0) || !std::isfinite(size)) break;
+      images.emplace_back(image / size);
+      directions.emplace_back(direction / size);
+      const double step = r.dot(images.back());
+      x += step * directions.back();
+      r -= step * images.back();
+    }
+    return x;
+  }
+
+ private:
+  static constexpr std::size_t most_kept = 40;
+  const SparseMatrix& matrix_;
+  const Near& near_;
+  PressureSolverOptions options_;
+};
+
 /// Solves for what is left until it is small or falls no further.
 template <class Solver>
 PressureSolution refine(const SparseMatrix& matrix, const VectorXd& right, const Solver& solver, double tolerance) {
@@ -97,21 +147,50 @@ PressureSolution refine(const SparseMatrix& matrix, const VectorXd& right, const
 
 }  // namespace
 
-PressureSolution solve_pressure(const SparseMatrix& matrix, const VectorXd& right,
-                                const PressureSolverOptions& options) {
-  PressureMethod method = options.method;
-  if (method == PressureMethod::automatic)
-    method = matrix.rows() <= largest_direct_system ? PressureMethod::direct : PressureMethod::multigrid;
-  PressureSolution out;
-  if (matrix.rows() > 0)
-    out = method == PressureMethod::direct ? refine(matrix, right, DirectSolver(matrix), options.tolerance)
-                                           : refine(matrix, right, MultigridSolver(matrix, options), options.tolerance);
-  out.method = method;
+namespace {
+
+PressureMethod method_for(const SparseMatrix& matrix, const PressureSolverOptions& options) {
+  if (options.method != PressureMethod::automatic) return options.method;
+  return matrix.rows() <= largest_direct_system ? PressureMethod::direct : PressureMethod::multigrid;
+}
+
+void expect_solved(const SparseMatrix& matrix, const PressureSolution& out, const PressureSolverOptions& options) {
   if (!(out.residual <= std::max(acceptable_residual, options.tolerance)))
     throw InvalidInput(fmt::format(
         "the pressure equation of {} unknowns was not solved: after {} iterations the residual is {:.2g} of "
         "the right-hand side; try the other --solver",
         matrix.rows(), out.iterations, out.residual));
+}
+
+template <class Near>
+PressureSolution solve_nearby(const SparseMatrix& matrix, const Near& near, const VectorXd& right,
+                              const PressureSolverOptions& options) {
+  return refine(matrix, right, NearbySolver<Near>(matrix, near, options), options.tolerance);
+}
+
+}  // namespace
+
+PressureSolution solve_pressure(const SparseMatrix& matrix, const VectorXd& right,
+                                const PressureSolverOptions& options) {
+  const PressureMethod method = method_for(matrix, options);
+  PressureSolution out;
+  if (matrix.rows() > 0)
+    out = method == PressureMethod::direct ? refine(matrix, right, DirectSolver(matrix), options.tolerance)
+                                           : refine(matrix, right, MultigridSolver(matrix, options), options.tolerance);
+  out.method = method;
+  expect_solved(matrix, out, options);
+  return out;
+}
+
+PressureSolution solve_pressure(const SparseMatrix& matrix, const SparseMatrix& near, const VectorXd& right,
+                                const PressureSolverOptions& options) {
+  const PressureMethod method = method_for(matrix, options);
+  PressureSolution out;
+  if (matrix.rows() > 0)
+    out = method == PressureMethod::direct ? solve_nearby(matrix, DirectSolver(near), right, options)
+                                           : solve_nearby(matrix, MultigridSolver(near, options), right, options);
+  out.method = method;
+  expect_solved(matrix, out, options);
   return out;
 }
 

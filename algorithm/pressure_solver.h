@@ -39,4 +39,9 @@ struct PressureSolution {
 PressureSolution solve_pressure(const SparseMatrix& matrix, const Eigen::VectorXd& right,
                                 const PressureSolverOptions& options = {});
 
+/// The same for a matrix that is not symmetric; `near` is a symmetric, positive definite one near it, and what the
+/// options say is how that one is solved.
+PressureSolution solve_pressure(const SparseMatrix& matrix, const SparseMatrix& near, const Eigen::VectorXd& right,
+                                const PressureSolverOptions& options = {});
+
 }  // namespace wellknit

@@ -139,14 +139,14 @@ RadialFlow::Nearest RadialFlow::nearest_axis(const Vec3& point) const {
   return out;
 }
 
-double RadialFlow::factor(const LinearFace& face) const {
-  if (!(face.geometry.area > 0.0) || !(face.transmissibility > 0.0)) return 1.0;
+RadialFlow::Factor RadialFlow::factor(const LinearFace& face) const {
+  if (!(face.geometry.area > 0.0) || !(face.transmissibility > 0.0)) return {};
   const Nearest near = nearest_axis(face.geometry.mean);
-  if (near.axis == nullptr || near.is_beyond_end || !(near.distance > 0.0)) return 1.0;
+  if (near.axis == nullptr || near.is_beyond_end || !(near.distance > 0.0)) return {};
   const double alone = std::clamp(near.next_distance / near.distance - 1.0, 0.0, 1.0);
   const BoreSection section(near.along, near.axis->tube->layered ? Vec3(Vec3::UnitZ()) : near.along);
   const LineSink sink(section.permeability(face.permeability), near.axis->bore_radius);
-  if (!(alone > 0.0) || !(sink.conductance() > 0.0)) return 1.0;
+  if (!(alone > 0.0) || !(sink.conductance() > 0.0)) return {};
   const auto rho = [&](const Vec3& point) { return std::abs(sink.at(section.along_axis(point - near.foot))); };
   const double drop = std::log(rho(face.centers[1]) / rho(face.centers[0]));
   const double length =
@@ -154,9 +154,11 @@ double RadialFlow::factor(const LinearFace& face) const {
   // 1: straight out; 0: around the well or along it.
   const double radial_part = std::abs(drop) * rho(face.geometry.mean) / length;
   const double turn = std::clamp((radial_part - 0.1) / 0.2, 0.0, 1.0);
-  if (!(turn > 0.0)) return 1.0;
-  const double exact = std::abs(flux_through(face, section, sink, near.foot) / drop);
-  return 1.0 + turn * alone * (std::clamp(exact / face.transmissibility, 0.5, 2.0) - 1.0);
+  if (!(turn > 0.0)) return {};
+  const double flux = flux_through(face, section, sink, near.foot);
+  const double radial = turn * alone;
+  return {1.0 + radial * (std::clamp(std::abs(flux / drop) / face.transmissibility, 0.5, 2.0) - 1.0), radial,
+          WellField{section, sink, near.foot, flux}};
 }
 
 }  // namespace wellknit

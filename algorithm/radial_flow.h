@@ -9,11 +9,14 @@
 /// the factor here. The idea, taking transmissibilities near wells from the analytical solution, is Ding's (key Ding).
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "algorithm/assembly.h"
+#include "algorithm/line_sink.h"
 #include "model/well.h"
 
 namespace wellknit {
@@ -31,14 +34,32 @@ struct LinearFace {
 /// A.l / sqrt(A.K A) / sqrt(l.K^-1 l). 1 where K A is along l, and where K cannot be inverted.
 double permeability_cosine(const Eigen::Matrix3d& k, const Vec3& area_vector, const Vec3& line);
 
+/// The field of a well as a face near it sees it: ln rho of a line sink.
+struct WellField {
+  BoreSection section;
+  LineSink sink;
+  Vec3 foot;          ///< on the well's axis
+  double flux = 0.0;  ///< through the face, m3: positive along its area vector when ln rho grows that way
+
+  [[nodiscard]] double at(const Vec3& point) const {
+    return std::log(std::abs(sink.at(section.along_axis(point - foot))));
+  }
+};
+
 class RadialFlow {
  public:
   /// `wells`: those that the tubes' numbers mean; tubes and their meshes must outlive this.
   RadialFlow(const std::vector<PlacedTube>& tubes, const std::vector<Well>& wells);
 
-  /// Factor on a face's linear transmissibility; 1 far from all tubes, between two of them, beyond the ends of the
+  /// What it needs to know about a face.
+  struct Factor {
+    double value = 1.0;
+    double radial = 0.0;             ///< how far the flow through the face is the well's, 0 to 1
+    std::optional<WellField> field;  ///< of the well; nothing where radial is 0
+  };
+  /// On a face's linear transmissibility; 1 far from all tubes, between two of them, beyond the ends of the
   /// wells, and where the line of centres runs around the well rather than to it. Between 1/2 and 2.
-  [[nodiscard]] double factor(const LinearFace& face) const;
+  [[nodiscard]] Factor factor(const LinearFace& face) const;
 
  private:
   /// A straight piece of a tube's axis.

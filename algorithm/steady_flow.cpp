@@ -64,6 +64,9 @@ void check_problem(const Mesh& mesh, const SteadyFlowProblem& problem) {
   for (std::size_t w = 0; w < mesh.wells.size(); ++w)
     if (!std::isfinite(problem.wells[WellId(w)].value))
       throw InvalidInput(fmt::format("well {}: its pressure or rate is not finite", mesh.wells[WellId(w)].name));
+  if (problem.consistent && !mesh.stencils)
+    throw InvalidInput(
+        "the mesh has no consistent fluxes: build it with --fluxes consistent, or solve with --fluxes two-point");
   check_held(mesh, problem);
 }
 
@@ -124,7 +127,7 @@ class SteadyFlowRun {
       const double t = mesh_.connections.transmissibility[ConnectionId(c)];
       const auto [a, b] = mesh_.connections.cells[ConnectionId(c)];
       if (conducts(t)) {
-        network_.links.push_back({node_of(a), node_of(b), mobility(t)});
+        network_.links.push_back({node_of(a), node_of(b), mobility(t), stencil_of(ConnectionId(c))});
       } else {
         ++(t == 0.0 ? out_.closed_connections : out_.refused_connections);
       }
@@ -134,15 +137,38 @@ class SteadyFlowRun {
   void add_faces() {
     face_conductance_.reserve(problem_.faces.size());
     for (const auto& [face, held] : problem_.faces) {
+      const FlowStencil stencil = stencil_of(face);
       const double t = boundary_conductance(mesh_, face);
+      face_stencil_.push_back(stencil);
       face_conductance_.push_back(conducts(t) ? mobility(t) : 0.0);
       face_potential_.push_back(potential(held, face_geometry(mesh_, face).centroid.z()));
       if (!conducts(t)) {
         ++out_.closed_faces;
         continue;
       }
-      network_.holds.push_back({node_of(mesh_.faces.cells[face][0]), mobility(t), face_potential_.back()});
+      network_.holds.push_back({node_of(mesh_.faces.cells[face][0]), mobility(t), face_potential_.back(), stencil});
     }
+  }
+
+  /// Of a connection; empty where fluxes are two-point.
+  [[nodiscard]] FlowStencil stencil_of(ConnectionId connection) const {
+    if (!problem_.consistent) return {};
+    const FluxStencils& s = *mesh_.stencils;
+    return stencil(s.cells, s.coefficients, s.start[connection.index()], s.start[connection.index() + 1]);
+  }
+  [[nodiscard]] FlowStencil stencil_of(FaceId face) const {
+    if (!problem_.consistent) return {};
+    const FluxStencils& s = *mesh_.stencils;
+    const auto found = std::lower_bound(s.boundary_face.begin(), s.boundary_face.end(), face);
+    if (found == s.boundary_face.end() || *found != face) return {};
+    const auto n = static_cast<std::size_t>(found - s.boundary_face.begin());
+    return stencil(s.boundary_cells, s.boundary_coefficients, s.boundary_start[n], s.boundary_start[n + 1]);
+  }
+  [[nodiscard]] FlowStencil stencil(const std::vector<CellId>& cells, const std::vector<double>& coefficients,
+                                    std::int64_t from, std::int64_t to) const {
+    const auto begin = static_cast<std::size_t>(from);
+    const auto count = static_cast<std::size_t>(to - from);
+    return {std::span(cells).subspan(begin, count), std::span(coefficients).subspan(begin, count), mobility(1.0)};
   }
 
   void add_wells() {
@@ -157,9 +183,9 @@ class SteadyFlowRun {
       for (const WellConnection& c : well.connections) {
         if (control.kind == Kind::shut || !conducts(c.well_index)) continue;
         if (control.kind == Kind::rate)
-          network_.links.push_back({node_of(c.cell), well_node_.back(), mobility(c.well_index)});
+          network_.links.push_back({node_of(c.cell), well_node_.back(), mobility(c.well_index), {}});
         else
-          network_.holds.push_back({node_of(c.cell), mobility(c.well_index), bore_potential(WellId(w))});
+          network_.holds.push_back({node_of(c.cell), mobility(c.well_index), bore_potential(WellId(w)), {}});
       }
     }
   }
@@ -239,7 +265,9 @@ class SteadyFlowRun {
       const double t = mesh_.connections.transmissibility[ConnectionId(c)];
       const auto [a, b] = mesh_.connections.cells[ConnectionId(c)];
       if (!conducts(t) || !is_held(node_of(a))) continue;
-      const double flux = mobility(t) * (relative(a) - relative(b));
+      const FlowStencil stencil = stencil_of(ConnectionId(c));
+      const double flux =
+          stencil.empty() ? mobility(t) * (relative(a) - relative(b)) : stencil.flow(solution_.potential);
       out_.solution.flux[ConnectionId(c)] = flux;
       surplus_[a.index()] -= flux;
       surplus_[b.index()] += flux;
@@ -247,7 +275,9 @@ class SteadyFlowRun {
     for (std::size_t f = 0; f < problem_.faces.size(); ++f) {
       const CellId cell = mesh_.faces.cells[problem_.faces[f].face][0];
       const double outside = face_potential_[f] - solution_.reference;
-      const double rate = face_conductance_[f] > 0.0 ? face_conductance_[f] * (relative(cell) - outside) : 0.0;
+      const FlowStencil& stencil = face_stencil_[f];
+      const double inside = stencil.empty() ? face_conductance_[f] * relative(cell) : stencil.flow(solution_.potential);
+      const double rate = face_conductance_[f] > 0.0 ? inside - face_conductance_[f] * outside : 0.0;
       out_.face_rate.push_back(rate);
       surplus_[cell.index()] -= rate;
     }
@@ -344,6 +374,7 @@ class SteadyFlowRun {
   std::vector<Node> well_node_;           ///< of wells on rate
   std::vector<double> face_conductance_;  ///< m3/(s Pa); 0: closed
   std::vector<double> face_potential_;
+  std::vector<FlowStencil> face_stencil_;
   std::vector<double> cell_expansion_;  ///< m3/s
   std::vector<double> surplus_;         ///< m3/s, of each cell: what comes in less what goes out
   SteadyFlow out_;

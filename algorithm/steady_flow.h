@@ -44,6 +44,7 @@ struct SteadyFlowProblem {
   /// m3/s that the rock gives off, spread over the held parts by pore volume (bulk volume where there is none at all):
   /// with it the flow is that of a reservoir whose pressure falls everywhere alike.
   double expansion = 0.0;
+  bool consistent = false;  ///< fluxes of the mesh's stencils instead of its transmissibilities
   PressureSolverOptions solver;
 };
 
@@ -87,8 +88,8 @@ struct SteadyFlow {
 };
 
 /// Throws InvalidInput: lengths that do not fit the mesh, a viscosity that is not positive, values that are not finite,
-/// a held face that is not of the outer boundary, anything held twice, a well that is to flow where nothing holds a
-/// pressure (the message names the part), and what solve_pressure() throws.
+/// a held face that is not of the outer boundary, consistent fluxes of a mesh without stencils, anything held twice, a
+/// well that is to flow where nothing holds a pressure (the message names the part), and what solve_pressure() throws.
 SteadyFlow solve_steady_flow(const Mesh& mesh, const SteadyFlowProblem& problem);
 
 }  // namespace wellknit

@@ -71,6 +71,9 @@ constexpr std::array<std::pair<std::string_view, MappingMethod>, 2> mapping_meth
 constexpr std::array<std::pair<std::string_view, FaultPolicy>, 2> fault_policies{
     {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
 
+constexpr std::array<std::pair<std::string_view, Fluxes>, 2> flux_kinds{
+    {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
+
 constexpr std::array<std::pair<std::string_view, ProgressStyle>, 3> progress_styles{
     {{"auto", ProgressStyle::automatic}, {"plain", ProgressStyle::plain}, {"off", ProgressStyle::off}}};
 
@@ -210,6 +213,9 @@ constexpr std::array options{
                 [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
+    BuildOption{"fluxes", "two-point|consistent",
+                "Fluxes of the mesh file: two-point, or multi-point ones beside them [two-point]", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},
     BuildOption{"output", "OUT.h5", "The mesh file", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.output = not_empty(v, "a file"); }},
     BuildOption{"write", "FORMAT=PATH[,key=value...]",
@@ -386,6 +392,7 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   take(out.refinement_levels, fallback.refinement_levels);
   take(out.fault_policy, fallback.fault_policy);
   take(out.heal_throw, fallback.heal_throw);
+  take(out.fluxes, fallback.fluxes);
   take(out.writes, fallback.writes);
   take(out.output, fallback.output);
   take(out.report, fallback.report);
@@ -439,6 +446,7 @@ std::string config_text(const BuildRequest& request) {
   table.insert("fault-policy", name_of(request.fault_policy.value_or(FaultPolicy::stop)));
   insert(table, "heal-throw", request.heal_throw);
   table.insert("metric", "geometric");
+  if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);
   if (levels > 0)
     table.insert("refine", levels);

@@ -69,6 +69,7 @@ struct BuildRequest {
   std::optional<int> refinement_levels;  ///< 0 off, -1 auto
   std::optional<FaultPolicy> fault_policy;
   std::optional<double> heal_throw;  ///< m
+  std::optional<Fluxes> fluxes;
   std::vector<OutputRequest> writes;
   std::optional<std::string> output;
   std::optional<std::string> report;  ///< the quality report, a page

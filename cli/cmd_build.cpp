@@ -292,9 +292,12 @@ int build(const GivenRequest& given) {
   progress.next();
   const Inputs in = read_inputs(request, deck.has_value());
   std::vector<StepTime> times{{"read", watch.lap()}};
-  const BuildOptions options{request.mapping.value_or(MappingMethod::automatic), request.threads.value_or(0),
-                             request.refinement_levels.value_or(-1), request.fault_policy.value_or(FaultPolicy::stop),
-                             request.heal_throw};
+  const BuildOptions options{request.mapping.value_or(MappingMethod::automatic),
+                             request.threads.value_or(0),
+                             request.refinement_levels.value_or(-1),
+                             request.fault_policy.value_or(FaultPolicy::stop),
+                             request.heal_throw,
+                             request.fluxes.value_or(Fluxes::two_point)};
   progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);

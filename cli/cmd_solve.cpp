@@ -45,6 +45,7 @@ std::string command_text(const SolveRequest& request) {
   add("--gravity", flow.density, "");
   add("--datum", flow.datum, "");
   add("--expansion", flow.expansion, "");
+  add("--fluxes", flow.fluxes, defaults.fluxes);
   add("--solver", flow.solver, defaults.solver);
   return out;
 }
@@ -104,6 +105,7 @@ void add_flow_options(CLI::App& app, FlowRequest& flow) {
   app.add_option("--expansion", flow.expansion,
                  "A rate (500m3/d) that the rock gives off, spread by pore volume: pseudo-steady flow")
       ->type_name("RATE");
+  app.add_option("--fluxes", flow.fluxes, "two-point, or consistent of a mesh built so")->capture_default_str();
   app.add_option("--solver", flow.solver, "auto, direct or multigrid")->capture_default_str();
 }
 

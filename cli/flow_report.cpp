@@ -150,6 +150,7 @@ std::string to_text(const FlowReport& report) {
   text +=
       fmt::format("balance     in {:.6g}, out {:.6g} m3/d, error {:.1e}, worst cell {:.1e}\n",
                   flow.balance.in * per_day, flow.balance.out * per_day, flow.balance.error, flow.balance.largest_cell);
+  if (report.problem.problem.consistent) text += "fluxes      consistent (multi-point)\n";
   text += fmt::format("solver      {}, {} unknowns, {} iterations, residual {:.1e}, {:.2f} s\n", name_of(flow.method),
                       flow.unknowns, flow.iterations, flow.residual, report.seconds);
   for (const std::string& note : flow_notes(report)) text += "note        " + note + "\n";
@@ -175,6 +176,7 @@ std::string to_json(const FlowReport& report) {
                      {"out_m3_per_day", flow.balance.out * per_day},
                      {"error", flow.balance.error},
                      {"worst_cell", flow.balance.largest_cell}};
+  json["fluxes"] = report.problem.problem.consistent ? "consistent" : "two-point";
   json["solver"] = {{"method", name_of(flow.method)},
                     {"unknowns", flow.unknowns},
                     {"iterations", flow.iterations},

@@ -87,6 +87,12 @@ PressureMethod parse_method(const std::string& text) {
   throw UsageError(fmt::format("--solver: expected auto, direct or multigrid, found '{}'", text));
 }
 
+bool parse_fluxes(const std::string& text) {
+  if (text == "two-point") return false;
+  if (text == "consistent") return true;
+  throw UsageError(fmt::format("--fluxes: expected two-point or consistent, found '{}'", text));
+}
+
 void require_field(const FlowSetting& setting) {
   const bool is_used = std::any_of(setting.sides.begin(), setting.sides.end(),
                                    [](const FlowSetting::Side& side) { return !side.pressure; });
@@ -239,6 +245,7 @@ FlowSetting understand(const FlowRequest& request) {
   if (out.datum && out.density == 0.0) throw UsageError("--datum: has a meaning with --gravity only");
   if (!request.expansion.empty()) out.expansion = parse_rate(request.expansion, "--expansion");
   out.method = parse_method(request.solver);
+  out.consistent = parse_fluxes(request.fluxes);
   if (!request.hold.empty()) {
     out.hold = read_value_table(request.hold);
     if (out.hold->index_title.empty())
@@ -255,6 +262,7 @@ FlowProblem make_problem(const FlowSetting& setting, const Mesh& mesh) {
   problem.density = setting.density;
   problem.expansion = setting.expansion;
   problem.solver.method = setting.method;
+  problem.consistent = setting.consistent;
   problem.wells = well_controls(setting, mesh);
   if (!setting.sides.empty()) Boundary(setting, mesh).add(setting, out.datum, problem);
   if (setting.hold) add_table(*setting.hold, problem);

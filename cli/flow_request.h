@@ -26,6 +26,7 @@ struct FlowRequest {
   std::string datum;                    ///< m
   std::string expansion;
   std::string solver = "auto";
+  std::string fluxes = "two-point";
 };
 
 /// A pressure that changes linearly in space, Pa and Pa/m.
@@ -56,6 +57,7 @@ struct FlowSetting {
   std::optional<double> datum;  ///< m
   double expansion = 0.0;       ///< m3/s
   PressureMethod method = PressureMethod::automatic;
+  bool consistent = false;  ///< multi-point fluxes
 };
 
 /// Throws UsageError, and ParseError for the table.

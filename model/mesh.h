@@ -123,6 +123,19 @@ struct SourceVolumes {
   std::vector<double> pores;  ///< 0 where the cell is not active
 };
 
+/// Multi-point fluxes: viscosity times flow, as coefficients, m3, of the cells' potentials. They add up to zero on a
+/// connection, and to the transmissibility on a face of the outer boundary.
+struct FluxStencils {
+  std::vector<std::int64_t> start;  ///< connections + 1 offsets
+  std::vector<CellId> cells;        ///< the connection's own two first
+  std::vector<double> coefficients;
+  std::vector<FaceId> boundary_face;              ///< all faces of the outer boundary, in order
+  std::vector<double> boundary_transmissibility;  ///< m3: the coefficient of a potential held at the face, turned round
+  std::vector<std::int64_t> boundary_start;       ///< boundary_face.size() + 1 offsets
+  std::vector<CellId> boundary_cells;             ///< the face's cell first
+  std::vector<double> boundary_coefficients;
+};
+
 /// Steady flow through the mesh, as `wellknit solve` computes it.
 struct FlowSolution {
   IdVector<CellId, double> pressure;         ///< Pa; not a number in parts of the mesh where nothing holds a pressure
@@ -142,6 +155,7 @@ struct Mesh {
   Transfer transfer;
   SourceVolumes source_volumes;
   std::optional<FlowSolution> flow;
+  std::optional<FluxStencils> stencils;
   std::array<std::int64_t, 3> source_dimensions{};
   std::optional<std::array<double, 6>> mapaxes;
   UnitSystem source_units = UnitSystem::metric;

@@ -62,6 +62,19 @@ void for_each_added_array(MeshType& mesh, Visitor&& visit) {
   visit("connections/linear_flux_error", mesh.connections.linear_flux_error.raw());
 }
 
+/// Of `mesh.stencils`, which a mesh built with --fluxes consistent has.
+template <class StencilType, class Visitor>
+void for_each_stencil_array(StencilType& stencils, Visitor&& visit) {
+  visit("stencils/start", stencils.start);
+  visit("stencils/cells", stencils.cells);
+  visit("stencils/coefficients", stencils.coefficients);
+  visit("stencils/boundary_face", stencils.boundary_face);
+  visit("stencils/boundary_transmissibility", stencils.boundary_transmissibility);
+  visit("stencils/boundary_start", stencils.boundary_start);
+  visit("stencils/boundary_cells", stencils.boundary_cells);
+  visit("stencils/boundary_coefficients", stencils.boundary_coefficients);
+}
+
 /// Of a solution (`mesh.flow`), which most files do not have.
 template <class FlowType, class Visitor>
 void for_each_flow_array(FlowType& flow, Visitor&& visit) {

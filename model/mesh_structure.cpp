@@ -23,6 +23,7 @@ class StructureCheck {
     connections();
     wells();
     transfer();
+    stencils();
     flow();
     return std::move(violations_);
   }
@@ -134,6 +135,22 @@ class StructureCheck {
     if (bulk.empty() && pores.empty()) return;
     expect_length("transfer/source_volume", bulk.size(), transfer.start.size() - 1);
     expect_length("transfer/source_pore_volume", pores.size(), transfer.start.size() - 1);
+  }
+
+  void stencils() {
+    if (!mesh_.stencils) return;
+    const FluxStencils& s = *mesh_.stencils;
+    expect_offsets(s.start, mesh_.connections.size(), s.cells.size(), "stencils/start");
+    expect_length("stencils/coefficients", s.coefficients.size(), s.cells.size());
+    for (std::size_t i = 0; i < s.cells.size(); ++i)
+      expect_index(s.cells[i].value(), 0, mesh_.cells.size(), "stencils/cells", i);
+    for (std::size_t i = 0; i < s.boundary_face.size(); ++i)
+      expect_index(s.boundary_face[i].value(), 0, mesh_.faces.size(), "stencils/boundary_face", i);
+    expect_length("stencils/boundary_transmissibility", s.boundary_transmissibility.size(), s.boundary_face.size());
+    expect_offsets(s.boundary_start, s.boundary_face.size(), s.boundary_cells.size(), "stencils/boundary_start");
+    expect_length("stencils/boundary_coefficients", s.boundary_coefficients.size(), s.boundary_cells.size());
+    for (std::size_t i = 0; i < s.boundary_cells.size(); ++i)
+      expect_index(s.boundary_cells[i].value(), 0, mesh_.cells.size(), "stencils/boundary_cells", i);
   }
 
   void flow() {

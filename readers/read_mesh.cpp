@@ -354,6 +354,7 @@ MeshFile read_mesh(const std::string& path) {
   for (const std::string& link : in.strings("wells_order")) mesh.wells.push_back(read_well(in, link));
   if (in.has("transfer")) for_each_transfer_array(mesh, read_array);
   if (in.has("transfer/source_volume")) for_each_source_volume(mesh, read_array);
+  if (in.has("stencils")) for_each_stencil_array(mesh.stencils.emplace(), read_array);
   if (in.has("flow")) {
     for_each_flow_array(mesh.flow.emplace(), read_array);
     mesh.flow->command = in.text_attribute("flow", "command");

@@ -98,6 +98,16 @@ void write_arrays(const Mesh& mesh, File& out) {
               return mesh.cells.permeability[CellId(c)][axis] / m2_per_millidarcy;
             }));
   }
+  if (mesh.stencils) {
+    const FluxStencils& s = *mesh.stencils;
+    indices("mpfa_offset", Indices(s.start.begin(), s.start.end()));
+    Indices cells;
+    Numbers coefficients;
+    for (const CellId cell : s.cells) cells.push_back(static_cast<std::int32_t>(cell.value()));
+    for (const double value : s.coefficients) coefficients.push_back(in_simulator_unit(value));
+    indices("mpfa_stencil", cells);
+    numbers("mpfa_tran", coefficients);
+  }
   out.array("centers", std::vector<Vec3>(mesh.cells.center.begin(), mesh.cells.center.end()));
   const WellArrays wells(mesh);
   out.strings("well_name", wells.names);

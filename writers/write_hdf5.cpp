@@ -113,6 +113,10 @@ void write_hdf5(const Mesh& mesh, const Provenance& provenance, const std::strin
     for_each_transfer_array(mesh, write_array);
     if (!mesh.source_volumes.bulk.empty()) for_each_source_volume(mesh, write_array);
   }
+  if (mesh.stencils) {
+    out.group("stencils");
+    for_each_stencil_array(*mesh.stencils, write_array);
+  }
   if (mesh.flow) {
     out.group("flow");
     out.attribute("flow", "command", mesh.flow->command);

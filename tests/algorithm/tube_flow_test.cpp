@@ -137,7 +137,7 @@ double factor_at(const RadialFlow& flow, double from, double to, double half_wid
   const std::vector<Vec3> points{{x, -half_width, 1}, {x, half_width, 1}, {x, half_width, 2}, {x, -half_width, 2}};
   const PolygonGeometry g = polygon_geometry(points);
   const double linear = g.area / (to - from);
-  return flow.factor({{Vec3(from, 0, 1.5), Vec3(to, 0, 1.5)}, points, g, Eigen::Matrix3d::Identity(), linear});
+  return flow.factor({{Vec3(from, 0, 1.5), Vec3(to, 0, 1.5)}, points, g, Eigen::Matrix3d::Identity(), linear}).value;
 }
 
 TEST(RadialFlow, FactorIsTheLineSinksFluxOverItsDrop) {

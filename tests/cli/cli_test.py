@@ -742,6 +742,24 @@ class Solve(Case):
         self.fail_with(1, "solve", "nowhere.h5", mention=["nowhere.h5"])
 
 
+class ConsistentFluxes(Case):
+    """Multi-point fluxes: made by build, used by solve, refused where a mesh does not have them."""
+
+    def test_a_box_has_the_rates_of_two_points(self):
+        self.succeed("build", "box.GRDECL", "-o", "mesh.h5", "--fluxes", "consistent", "--quiet")
+        asked = ("solve", "mesh.h5", "--json", "--boundary", "i-=210bar", "--boundary", "i+=200bar")
+        two_point, consistent = (json.loads(self.succeed(*asked, *more)) for more in ((), ("--fluxes", "consistent")))
+        self.assertEqual([two_point["fluxes"], consistent["fluxes"]], ["two-point", "consistent"])
+        self.assertGreater(two_point["balance"]["in_m3_per_day"], 0.0)
+        self.assertAlmostEqual(consistent["balance"]["in_m3_per_day"] / two_point["balance"]["in_m3_per_day"], 1.0, places=9)
+
+    def test_a_mesh_without_them_is_refused(self):
+        self.succeed("build", "box.GRDECL", "-o", "mesh.h5", "--quiet")
+        self.fail_with(1, "solve", "mesh.h5", "--fluxes", "consistent", mention=["--fluxes consistent", "build"])
+        self.fail_with(2, "solve", "mesh.h5", "--fluxes", "exact", mention=["--fluxes", "two-point", "exact"])
+        self.fail_with(2, "build", "box.GRDECL", "-o", "other.h5", "--fluxes", "exact", mention=["two-point", "exact"])
+
+
 class Map(Case):
     def setUp(self):
         super().setUp()

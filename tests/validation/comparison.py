@@ -31,7 +31,7 @@ class Problem:
 
 def compare(program, problem):
     """{mesh: {cells, rates, errors (relative, by well), line: [distance, error over drawdown]}}; `knit` has mode and
-    radius too."""
+    radius too. With two-point fluxes; but for the finer grid {mesh}_consistent with multi-point ones."""
     paths = [meshes.write_path(program.folder / f"well{n}.csv", points) for n, points in enumerate(problem.wells)]
     out = {}
     for name in problem.meshes:
@@ -39,28 +39,31 @@ def compare(program, problem):
         case, mesh = program.folder / "host.GRDECL", program.folder / f"{name}.h5"
         hosts.write_grdecl(grid, case)
         more = {}
+        fluxes = () if name == "finer" else ("--fluxes", "consistent")
         if name == "knit":
             wells = [f"{program.folder}/well{n}.csv,name=W{n},bore={problem.bore}{problem.keys}"
                      for n in range(len(paths))]
-            report = program.build(case, mesh, *problem.options, *(a for w in wells for a in ("--well", w)))
+            report = program.build(case, mesh, *fluxes, *problem.options, *(a for w in wells for a in ("--well", w)))
             more = {"wells": [{k: w[k] for k in ("mode", "drainage_radius", "index_connections", "length_in_rock",
                                                  "length_meshed")} for w in report["wells"]]}
         else:
-            program.build(case, mesh)
+            program.build(case, mesh, *fluxes)
             for n, path in enumerate(paths):
                 host_wells.add_well(mesh, grid, f"W{n}", path, problem.bore)
             if name == "corner_point":
                 more = {"non_orthogonality": meshes.mean_non_orthogonality(mesh)}
         out[name] = {**solve(program, problem, mesh), **more}
+        if fluxes:
+            out[name + "_consistent"] = solve(program, problem, mesh, *fluxes)
     return out
 
 
-def solve(program, problem, mesh):
+def solve(program, problem, mesh, *options):
     table, result = program.folder / "hold.csv", mesh.with_name(mesh.stem + "_flow.h5")
     select = {"chosen": problem.chosen} if problem.chosen else {}
     meshes.hold_faces(mesh, table, problem.exact.pressure, **select)
     wells = [f"W{n}={p:.12g}bar" for n, p in enumerate(problem.exact.bore_pressures)]
-    report = program.solve(mesh, result, "--hold", table, *(a for w in wells for a in ("--well", w)))
+    report = program.solve(mesh, result, "--hold", table, *options, *(a for w in wells for a in ("--well", w)))
     rates = [w["rate_m3_per_day"] for w in report["wells"]]
     errors = [rate / exact - 1 for rate, exact in zip(rates, problem.exact.rates)]
     out = {"cells": report["cells"], "rates": rates, "errors": errors}

@@ -13,7 +13,7 @@ from attribution import KINDS
 SLOPE = 0.01  # bar/m
 
 
-def flux_errors(mesh, axis):
+def flux_errors(mesh, axis, is_consistent):
     """Errors of all connections' fluxes, over the flux of a face of the same area across the slope; and pairs of
     kinds."""
     with h5py.File(mesh) as file:
@@ -28,12 +28,17 @@ def flux_errors(mesh, axis):
         kind = file["cells/kind"][()]
         wanted = -k[pair[:, 0], axis] * area_vector[:, axis] * sign
         given = t * (center[pair[:, 0], axis] - center[pair[:, 1], axis])
+        if is_consistent:
+            start, cells = file["stencils/start"][()], file["stencils/cells"][()]
+            terms = np.concatenate([[0.0], np.cumsum(file["stencils/coefficients"][()] *
+                                                     (center[cells, axis] - center[:, axis].mean()))])
+            given = (terms[start[1:]] - terms[start[:-1]])[keep]
         scale = k[pair[:, 0], axis] * np.linalg.norm(area_vector, axis=1)
         kinds = [f"{KINDS[a]} - {KINDS[b]}" for a, b in np.sort(kind[pair], axis=1)]
     return (given - wanted) / scale, np.array(kinds)
 
 
-def pressure_error(program, mesh, axis):
+def pressure_error(program, mesh, axis, *options):
     """Largest error of a cell's pressure over the drop across the slab along the axis; radial cells aside."""
     slope = np.zeros(3)
     slope[axis] = SLOPE
@@ -43,7 +48,7 @@ def pressure_error(program, mesh, axis):
     field = exact.Linear(200.0 - float(points.mean(axis=0) @ slope), slope)
     table, result = program.folder / "patch.csv", program.folder / "patch_flow.h5"
     meshes.hold_faces(mesh, table, field.pressure, with_top_and_base=True)
-    program.solve(mesh, result, "--hold", table, *(a for w in wells for a in ("--well", f"{w}=shut")))
+    program.solve(mesh, result, "--hold", table, *options, *(a for w in wells for a in ("--well", f"{w}=shut")))
     with h5py.File(result) as file:
         error = file["flow/pressure"][()] / meshes.BAR - field.pressure(file["cells/center"][()])
         outside = file["cells/kind"][()] != meshes.RADIAL
@@ -62,15 +67,20 @@ def run(program, deformations=cases.DEFORMATIONS):
         row = {}
         for name, options in (("knit", ("--well", f"{path},name=W0")), ("corner_point", ())):
             mesh = program.folder / f"patch_{name}.h5"
-            program.build(case, mesh, *options)
-            errors = [flux_errors(mesh, axis) for axis in range(3)]
-            size = np.max([np.abs(e) for e, _ in errors], axis=0)
-            kinds = errors[0][1]
-            row[name] = {"pressure": [pressure_error(program, mesh, axis) for axis in range(3)],
-                         "flux": {str(k): [int((kinds == k).sum()), float(size[kinds == k].mean()),
-                                           float(np.quantile(size[kinds == k], 0.95)), float(size[kinds == k].max())]
-                                  for k in np.unique(kinds)},
-                         "quantiles": {str(k): np.quantile(size[kinds == k], np.linspace(0, 1, 41)).tolist()
-                                       for k in np.unique(kinds)}}
+            program.build(case, mesh, "--fluxes", "consistent", *options)
+            row[name] = of_mesh(program, mesh)
+            row[name + "_consistent"] = of_mesh(program, mesh, "--fluxes", "consistent")
         out[f"{deform:g}"] = row
     return out
+
+
+def of_mesh(program, mesh, *fluxes):
+    errors = [flux_errors(mesh, axis, bool(fluxes)) for axis in range(3)]
+    size = np.max([np.abs(e) for e, _ in errors], axis=0)
+    kinds = errors[0][1]
+    return {"pressure": [pressure_error(program, mesh, axis, *fluxes) for axis in range(3)],
+            "flux": {str(k): [int((kinds == k).sum()), float(size[kinds == k].mean()),
+                              float(np.quantile(size[kinds == k], 0.95)), float(size[kinds == k].max())]
+                     for k in np.unique(kinds)},
+            "quantiles": {str(k): np.quantile(size[kinds == k], np.linspace(0, 1, 41)).tolist()
+                          for k in np.unique(kinds)}}

@@ -25,6 +25,7 @@ def run(program):
     check("Thiem, corner point, deform 0", worst(thiem[0.0], "corner_point"), 1e-3)
     for deform, limit in LIMITS["thiem"].items():
         check(f"Thiem, deform {deform:g}", worst(thiem[deform]), limit)
+        check(f"Thiem, consistent fluxes, deform {deform:g}", worst(thiem[deform], "knit_consistent"), LIMITS["consistent"])
     for name, problem in (("layered", cases.layered_problem(0.0, meshes=PLAIN)),
                           ("boundary", cases.boundary_problem(30.0, 0.0, meshes=PLAIN)),
                           ("two_wells", cases.two_wells_problem(0.0, meshes=PLAIN))):
@@ -35,6 +36,8 @@ def run(program):
     patch = patch_test.run(program, (0.0,))["0"]
     check("patch test of a box grid", max(patch["corner_point"]["pressure"]), 1e-10)
     check("patch test with a well", max(patch["knit"]["pressure"]), LIMITS["patch"])
+    check("patch test of a box grid, consistent fluxes", max(patch["corner_point_consistent"]["pressure"]), 1e-10)
+    check("patch test with a well, consistent fluxes", max(patch["knit_consistent"]["pressure"]), LIMITS["patch_consistent"])
     return 1 if failed else 0
 
 
@@ -47,4 +50,6 @@ LIMITS = {
              ("horizontal", 1.0, 0.0): 0.0035, ("horizontal", 0.1, 0.0): 0.016, ("horizontal", 0.01, 0.0): 0.012,
              ("slanted", 0.1, 0.5): 0.006, ("horizontal", 0.1, 0.5): 0.0125},
     "patch": 0.0045,
+    "consistent": 0.004,
+    "patch_consistent": 0.002,
 }
