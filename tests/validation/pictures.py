@@ -12,8 +12,8 @@ try:
 except ImportError:
     plt = None
 
-COLOURS = {"knit": "#0b6e99", "corner_point": "#c2571a", "finer": "#7a7a7a"}
-LABELS = {"knit": "wellknit", "corner_point": "corner point, Peaceman", "finer": "4 × 4 finer"}
+COLOURS = {"knit": "#0b6e99", "knit_consistent": "#5fb0d3", "corner_point": "#c2571a", "finer": "#7a7a7a"}
+LABELS = {"knit": "wellknit", "knit_consistent": "wellknit, consistent fluxes", "corner_point": "corner point, Peaceman", "finer": "4 × 4 finer"}
 LIMITS = {0.0: 0.5, 0.5: 1.0, 1.0: 2.0}  # %, of Thiem's rate
 
 
@@ -28,7 +28,7 @@ def bars(axes, rows, title, limit=None):
     place = np.arange(len(names))
     for n, mesh in enumerate(COLOURS):
         values = [100 * rows[r][mesh]["errors"][0] for r in names]
-        axes.bar(place + 0.27 * (n - 1), values, 0.25, color=COLOURS[mesh], label=LABELS[mesh])
+        axes.bar(place + 0.21 * (n - 1.5), values, 0.2, color=COLOURS[mesh], label=LABELS[mesh])
     if limit:
         for x, value in zip(place, limit):
             for y in (value, -value):
