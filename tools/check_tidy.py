@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-FOLDERS = ("model", "readers", "algorithm", "writers", "cli")
+FOLDERS = ("model", "readers", "algorithm", "writers", "conversion", "report", "cli")
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 
 

@@ -13,6 +13,7 @@
 #include "readers/file_content.h"
 #include "readers/read_case.h"
 #include "tests/readers/reader_helpers.h"
+#include "tests/support/random_seed.h"
 
 namespace wellknit {
 namespace {
@@ -248,7 +249,7 @@ TEST(DamagedDecks, CutAtTwoHundredPlaces) {
 }
 
 TEST(DamagedDecks, WithAThousandBytesFlipped) {
-  const auto seed = std::random_device{}();
+  const auto seed = random_seed();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   for (const std::string& name : samples) {

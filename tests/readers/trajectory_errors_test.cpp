@@ -11,6 +11,7 @@
 #include "readers/file_content.h"
 #include "readers/parse_trajectory.h"
 #include "tests/readers/reader_helpers.h"
+#include "tests/support/random_seed.h"
 
 namespace wellknit {
 namespace {
@@ -172,9 +173,8 @@ TEST(DamagedWells, TruncationIsAnErrorOrValidWells) {
 }
 
 TEST(DamagedWells, FlippedBytesAreAnErrorOrValidWells) {
-  const auto seed = std::random_device()();
+  const auto seed = random_seed();
   SCOPED_TRACE("seed " + std::to_string(seed));
-  std::cout << "seed " << seed << '\n';
   std::mt19937 random(seed);
   for (const std::string& name : samples()) {
     const std::string text(load_file(std::string(WELLKNIT_TESTDATA) + "/wells/" + name).text);
