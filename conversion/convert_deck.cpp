@@ -253,7 +253,9 @@ std::string deck_folder_of(const std::string& path) {
 }
 
 void refuse_what_cannot_be_converted(const WholeDeck& deck) {
-  if (!deck.refusals.empty()) throw deck.refusals.front();
+  if (deck.refusals.empty()) return;
+  const ParseError& first = deck.refusals.front();
+  throw ParseError(first.where(), first.problem());
 }
 
 void open_all_completions(const CornerPointGrid& grid, Well& well) {

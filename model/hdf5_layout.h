@@ -63,6 +63,7 @@ struct Element {
 };
 
 inline Element element(const double*) { return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1}; }
+inline Element element(const std::uint8_t*) { return {H5T_NATIVE_UINT8, H5T_STD_U8LE, 1}; }
 inline Element element(const std::int64_t*) { return {H5T_NATIVE_INT64, H5T_STD_I64LE, 1}; }
 inline Element element(const std::int32_t*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 1}; }
 inline Element element(const std::array<std::int32_t, 2>*) { return {H5T_NATIVE_INT32, H5T_STD_I32LE, 2}; }

@@ -118,6 +118,7 @@ class QualityPass {
     transmissibilities();
     report_.conservation = conservation(mesh_);
     report_.linear_flux = linear_flux_errors(mesh_);
+    report_.polymesh = polymesh_quality(mesh_);
     return report_;
   }
 

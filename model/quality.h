@@ -20,6 +20,7 @@
 #include "model/conservation.h"
 #include "model/linear_flux.h"
 #include "model/mesh.h"
+#include "model/polymesh_quality.h"
 
 namespace wellknit {
 
@@ -85,6 +86,7 @@ struct QualityReport {
   double min_face_area = 0.0;  ///< m2
   double max_skewness = 0.0;   ///< inner faces
   double max_boundary_skewness = 0.0;
+  PolymeshQuality polymesh;               ///< what checkMesh itself prints, from centroids
   double min_interpolation_weight = 0.5;  ///< 0.5 is the best
   double min_volume_ratio = 1.0;          ///< of two neighbours, the smaller over the larger
   double min_flatness = 1.0;              ///< |area vector| over the sum of the fan's areas

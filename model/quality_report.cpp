@@ -100,6 +100,9 @@ std::vector<Figure> figures(const QualityReport& report) {
   figure("max_skewness", report.max_skewness);
   figure("max_boundary_skewness", report.max_boundary_skewness);
   count("faces_above_skewness_4", report.faces_above_skewness_4);
+  figure("checkmesh_nonorth_max_deg", report.polymesh.max_non_orthogonality);
+  figure("checkmesh_nonorth_mean_deg", report.polymesh.mean_non_orthogonality);
+  figure("checkmesh_skewness_max", report.polymesh.max_skewness);
   figure("min_interpolation_weight", report.min_interpolation_weight);
   count("faces_below_weight_5_percent", report.faces_below_weight_005);
   figure("min_volume_ratio", report.min_volume_ratio);

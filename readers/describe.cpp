@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <set>
 
 #include "model/units.h"
 #include "readers/cell_arrays.h"
+#include "readers/exported_hdf5.h"
 #include "readers/file_content.h"
 #include "readers/formats.h"
 #include "readers/read_case.h"
@@ -222,13 +224,51 @@ bool describe_properties(const std::string& path, const ReaderFormat& format, Fi
   return true;
 }
 
-/// True, with what it counts, for a mesh in the format of another program.
-bool describe_exported_mesh(const std::string& path, FileDescription& out) {
+struct Exported {
+  std::string format;
+  ExportedCounts counts;
+};
+
+/// A mesh in the format of another program.
+std::optional<Exported> exported_file(const std::string& path) {
   const FileContent content = load_file(path);
   const ReaderFormat& format = recognise_content(content);
-  if (format.is_read || format.kind != FormatKind::mesh) return false;
-  out.format = std::string(format.name);
-  out.exported = count_exported_mesh(content.text);
+  if (format.kind != FormatKind::mesh) return {};
+  if (!format.is_read) return Exported{std::string(format.name), count_exported_mesh(content.text)};
+  const auto found = describe_exported_hdf5(path);
+  return found ? std::optional(Exported{std::string(found->format), found->counts}) : std::nullopt;
+}
+
+/// What the known files of a folder count together, under the first one's format.
+std::optional<Exported> exported_folder(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return {};
+  std::optional<Exported> out;
+  for (const std::string_view name : counted_files_of_folders()) {
+    const fs::path file = fs::path(path) / name;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    const auto found = exported_file(file.string());
+    if (!found) continue;
+    if (!out) out = Exported{found->format, {}};
+    const auto take = [](auto& count, const auto& other) {
+      if (!count) count = other;
+    };
+    take(out->counts.cells, found->counts.cells);
+    take(out->counts.faces, found->counts.faces);
+    take(out->counts.vertices, found->counts.vertices);
+    take(out->counts.connections, found->counts.connections);
+  }
+  return out;
+}
+
+/// True, with what it counts, for a mesh in the format of another program.
+bool describe_exported_mesh(const std::string& path, FileDescription& out) {
+  auto found = exported_folder(path);
+  if (!found) found = exported_file(path);
+  if (!found) return false;
+  out.format = std::move(found->format);
+  out.exported = found->counts;
   out.notes.push_back("a mesh for another program: wellknit counts it and does not read it");
   return true;
 }

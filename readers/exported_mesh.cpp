@@ -3,6 +3,7 @@
 
 #include "readers/exported_mesh.h"
 
+#include <array>
 #include <charconv>
 #include <string>
 #include <vector>
@@ -87,15 +88,49 @@ ExportedCounts count_stor(std::string_view text) {
   return {sizes[1], {}, {}, (sizes[2] - 2 * sizes[1] - 1) / 2};
 }
 
-/// The length of the first array, which is one of the connections.
-ExportedCounts count_darts(std::string_view text) {
+Count single_number(std::string_view text) {
+  const std::vector<std::int64_t> numbers = whole_numbers(text);
+  return numbers.size() == 1 ? Count(numbers[0]) : Count();
+}
+
+/// The length of an array in a ZIP file that is not compressed: numpy's head follows the name.
+Count length_of_npy(std::string_view text, std::string_view name) {
   constexpr std::size_t looked_at = 256;
-  const std::string_view head = text.substr(0, looked_at);
+  const std::size_t at = text.find(name);
+  if (at == std::string_view::npos) return {};
+  const std::string_view head = text.substr(at, looked_at);
   const std::size_t shape = head.find("'shape': (");
   if (shape == std::string_view::npos) return {};
   const std::string_view rest = head.substr(shape + 10);
-  const std::vector<std::int64_t> size = whole_numbers(rest.substr(0, rest.find(',')));
-  return {{}, {}, {}, size.size() == 1 ? Count(size[0]) : Count()};
+  return single_number(rest.substr(0, rest.find(',')));
+}
+
+/// The whole number between the quotes after `name="` in the head of a VTK file.
+Count xml_number(std::string_view text, std::string_view name) {
+  constexpr std::size_t looked_at = 2000;
+  const std::string_view head = text.substr(0, looked_at);
+  const std::string wanted = std::string(name) + "=\"";
+  const std::size_t at = head.find(wanted);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = head.substr(at + wanted.size());
+  return single_number(rest.substr(0, rest.find('"')));
+}
+
+bool is_vtk_of(std::string_view text, std::string_view kind) {
+  constexpr std::size_t looked_at = 500;
+  const std::string_view head = text.substr(0, looked_at);
+  return head.find("<VTKFile") != std::string_view::npos &&
+         head.find("type=\"" + std::string(kind) + "\"") != std::string_view::npos;
+}
+
+/// The number after `name:` in the note of an OpenFOAM file.
+Count note_number(std::string_view text, std::string_view name) {
+  constexpr std::size_t looked_at = 2000;
+  const std::string_view head = text.substr(0, looked_at);
+  const std::size_t at = head.find(name);
+  if (at == std::string_view::npos) return {};
+  const std::string_view rest = head.substr(at + name.size());
+  return single_number(rest.substr(0, rest.find_first_of("nN\"")));
 }
 
 }  // namespace
@@ -121,11 +156,35 @@ bool looks_like_connection_table(std::string_view text) { return text.starts_wit
 bool looks_like_fehm_stor(std::string_view text) { return text.starts_with("fehmstor "); }
 bool looks_like_dgf(std::string_view text) { return text.starts_with("DGF\n") || text.starts_with("DGF\r\n"); }
 
+bool looks_like_vtk_grid(std::string_view text) { return is_vtk_of(text, "UnstructuredGrid"); }
+bool looks_like_vtk_lines(std::string_view text) { return is_vtk_of(text, "PolyData"); }
+bool looks_like_foam_labels(std::string_view text) {
+  return text.starts_with("FoamFile") && text.substr(0, 500).find("labelList") != std::string_view::npos;
+}
+
+std::span<const std::string_view> counted_files_of_folders() {
+  static constexpr std::array<std::string_view, 8> names{"mesh.uge",
+                                                         "mesh.h5",
+                                                         "MESH",
+                                                         "mesh.stor",
+                                                         "cells.csv",
+                                                         "connections.csv",
+                                                         "connections.txt",
+                                                         "constant/polyMesh/owner"};
+  return names;
+}
+
 ExportedCounts count_exported_mesh(std::string_view text) {
   if (looks_like_opm_grid(text)) return count_opm_grid(text);
   if (looks_like_pflotran_grid(text)) return {number_after(text, "CELLS "), {}, {}, number_after(text, "CONNECTIONS ")};
   if (looks_like_tough_mesh(text)) return {lines_after(text, "ELEME"), {}, {}, lines_after(text, "CONNE")};
-  if (looks_like_darts_arrays(text)) return count_darts(text);
+  if (looks_like_darts_arrays(text))
+    return {length_of_npy(text, "volume.npy"), {}, {}, length_of_npy(text, "block_m.npy")};
+  if (looks_like_vtk_grid(text)) return {xml_number(text, "NumberOfCells"), {}, xml_number(text, "NumberOfPoints"), {}};
+  if (looks_like_vtk_lines(text))
+    return {xml_number(text, "NumberOfLines"), {}, xml_number(text, "NumberOfPoints"), {}};
+  if (looks_like_foam_labels(text))
+    return {note_number(text, "nCells:"), note_number(text, "nFaces:"), note_number(text, "nPoints:"), {}};
   if (looks_like_adgprs_connections(text)) {
     const std::vector<std::int64_t> count = whole_numbers(line(text, 1));
     return {{}, {}, {}, count.size() == 1 ? Count(count[0]) : Count()};

@@ -91,6 +91,9 @@ constexpr std::array foam_checks{
     FoamCheck{"Reversed faces of made cells", nullptr, "none at 90 degrees", "made_faces_beyond_90_deg"},
     FoamCheck{"Skewness, inner faces", "max_skewness", "at most 4", "faces_above_skewness_4"},
     FoamCheck{"Skewness, boundary", "max_boundary_skewness", "at most 20", nullptr},
+    FoamCheck{"Non-orthogonality from centroids, as checkMesh prints it", "checkmesh_nonorth_max_deg", "70 is severe",
+              nullptr},
+    FoamCheck{"Skewness from centroids, as checkMesh prints it", "checkmesh_skewness_max", "at most 4", nullptr},
     FoamCheck{"Interpolation weight", "min_interpolation_weight", "at least 0.05", "faces_below_weight_5_percent"},
     FoamCheck{"Volume ratio of neighbours", "min_volume_ratio", "at least 0.01", nullptr},
     FoamCheck{"Flatness of faces", "min_flatness", "at least 0.8", nullptr}};
@@ -113,7 +116,7 @@ std::string openfoam_section(const ReportInput& input) {
     rows += row({check.title, check.figure == nullptr ? "" : all.span(check.figure), check.limit,
                  check.beyond == nullptr ? "" : all.span(check.beyond)});
   return "<section id=\"openfoam\">\n<h2>Beside OpenFOAM's checkMesh</h2>\n<p>The same measures between the pressure "
-         "points; checkMesh takes the cells' centroids. All cells count, the host's too.</p>\n" +
+         "points, where the row does not say centroids, which checkMesh takes. All cells count, the host's too.</p>\n" +
          table("checkMesh's measures", {"measure", "worst", "checkMesh's limit", "number beyond"}, rows) +
          "</section>\n";
 }

@@ -13,7 +13,7 @@ optional_packages=(openfoam libopm-grid-dev octave chromium chromium-driver pyth
 site_packages=(mkdocs)
 picture_packages=(python3-matplotlib)  # of docs/validation.md, when they are made anew
 benchmark_packages=(libbenchmark-dev libopm-common-dev libopm-grid-dev)
-ci_packages=(clang libclang-rt-14-dev clang-format clang-tidy gcovr ccache libbenchmark-dev git)
+ci_packages=(clang libclang-rt-14-dev clang-format clang-tidy gcovr llvm-14 ccache libbenchmark-dev git)
 
 # install_missing PACKAGE…: asks apt only for what is not there, and not at all when nothing is missing.
 install_missing() {

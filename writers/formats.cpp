@@ -12,12 +12,15 @@
 #include "writers/write_dgf.h"
 #include "writers/write_fehm.h"
 #include "writers/write_flow_deck.h"
+#include "writers/write_geos.h"
 #include "writers/write_hdf5.h"
 #include "writers/write_mrst.h"
 #include "writers/write_openfoam.h"
 #include "writers/write_opm_grid.h"
 #include "writers/write_pflotran.h"
 #include "writers/write_tough.h"
+#include "writers/write_vtkhdf.h"
+#include "writers/write_vtp.h"
 #include "writers/write_vtu.h"
 
 namespace wellknit {
@@ -32,9 +35,14 @@ Notes hdf5(const WriteRequest& r) {
 }
 
 Notes vtu(const WriteRequest& r) {
+  if (r.options.vtu_reader == VtuReader::geos) return write_geos(r.mesh, r.path, r.options.geos, r.overwrite);
   write_vtu(r.mesh, r.path, r.overwrite);
   return {};
 }
+
+Notes vtkhdf(const WriteRequest& r) { return write_vtkhdf(r.mesh, r.source, r.path, r.overwrite); }
+
+Notes vtp(const WriteRequest& r) { return write_vtp(r.mesh, r.path, r.overwrite); }
 
 Notes deck(const WriteRequest& r) {
   const Notes notes = write_flow_deck(r.mesh, r.path, r.options.deck, r.overwrite, r.source);
@@ -75,6 +83,8 @@ Notes dgf(const WriteRequest& r) { return write_dgf(r.mesh, r.path, r.overwrite)
 
 constexpr std::array<std::string_view, 2> hdf5_extensions{".h5", ".hdf5"};
 constexpr std::array<std::string_view, 1> vtu_extensions{".vtu"};
+constexpr std::array<std::string_view, 1> vtkhdf_extensions{".vtkhdf"};
+constexpr std::array<std::string_view, 1> vtp_extensions{".vtp"};
 constexpr std::array<std::string_view, 1> deck_extensions{".data"};
 constexpr std::array<std::string_view, 1> openfoam_extensions{".openfoam"};
 constexpr std::array<std::string_view, 1> opm_grid_extensions{".opmgrid"};
@@ -93,10 +103,17 @@ constexpr auto table = std::to_array<WriterFormat>({
     {"hdf5", hdf5_extensions, "the mesh file: everything, exact, SI", "hdf5.md", {}, hdf5},
     {"vtu",
      vtu_extensions,
-     "ParaView and VTK: hexahedra and polyhedra with cell and quality arrays",
+     "ParaView, VTK and GEOS: hexahedra and polyhedra with cell and quality arrays",
      "vtu.md",
      {},
      vtu},
+    {"vtkhdf",
+     vtkhdf_extensions,
+     "ParaView and VTK: the source grid's active cells as hexahedra",
+     "vtkhdf.md",
+     {},
+     vtkhdf},
+    {"vtp", vtp_extensions, "ParaView, VTK and GEOS: the wells' trajectories as polylines", "vtp.md", {}, vtp},
     {"deck",
      deck_extensions,
      "OPM Flow: a complete deck on the connection list, wells on bottom-hole pressure",

@@ -42,6 +42,18 @@ constexpr std::array<pair<string_view, DeckLayoutKind>, 3> layouts{
 constexpr std::array<pair<string_view, CellOrder>, 3> orders{
     {{"mesh", CellOrder::mesh}, {"layer", CellOrder::layer}, {"rcm", CellOrder::rcm}}};
 
+constexpr std::array<pair<string_view, VtuReader>, 2> vtu_readers{
+    {{"paraview", VtuReader::paraview}, {"geos", VtuReader::geos}}};
+
+constexpr std::array vtu_table{
+    WriterKey{"for", "paraview|geos", "who reads it: general polyhedra, or the shapes that GEOS takes",
+              [](WriterOptions& o, string_view v) { return choose(v, vtu_readers, o.vtu_reader); }},
+    WriterKey{"region", "a keyword", "for GEOS: a property of whole numbers, its regions; FIPNUM unless given",
+              [](WriterOptions& o, string_view v) {
+                o.geos.region = v;
+                return !v.empty();
+              }},
+};
 constexpr std::array deck_table{
     WriterKey{"layout", "row|portable|nested", "where the cells stand",
               [](WriterOptions& o, string_view v) { return choose(v, layouts, o.deck.layout); }},
@@ -94,6 +106,7 @@ constexpr std::array fehm_table{
 }  // namespace
 
 std::span<const WriterKey> writer_keys(std::string_view format) {
+  if (format == "vtu") return vtu_table;
   if (format == "deck") return deck_table;
   if (format == "opm_grid") return opm_grid_table;
   if (format == "mrst") return mrst_table;

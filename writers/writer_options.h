@@ -11,6 +11,7 @@
 
 #include "writers/write_fehm.h"
 #include "writers/write_flow_deck.h"
+#include "writers/write_geos.h"
 #include "writers/write_mrst.h"
 #include "writers/write_opm_grid.h"
 #include "writers/write_pflotran.h"
@@ -18,8 +19,13 @@
 
 namespace wellknit {
 
+/// Whom a VTU is for.
+enum class VtuReader { paraview, geos };
+
 /// Each writer looks at its own.
 struct WriterOptions {
+  VtuReader vtu_reader = VtuReader::paraview;
+  GeosOptions geos;
   FlowDeckOptions deck;
   OpmGridOptions opm_grid;
   MrstOptions mrst;

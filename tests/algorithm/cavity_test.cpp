@@ -40,7 +40,9 @@ TEST(Cavity, BoundaryIsAClosedManifold) {
     std::map<std::pair<std::int32_t, std::int32_t>, int> edges;
     for (const BoundaryFace& f : cavity.faces)
       for (std::size_t i = 0; i < f.loop.size(); ++i) ++edges[{f.loop[i], f.loop[(i + 1) % f.loop.size()]}];
-    for (const auto& [edge, count] : edges) {
+    for (const auto& entry : edges) {
+      const auto& edge = entry.first;
+      const auto count = entry.second;
       EXPECT_EQ(count, 1);
       const auto on_plane = [&](const MirrorPlane& p) {
         return cavity.vertices[static_cast<std::size_t>(edge.first)].reference[p.axis] == p.coordinate &&

@@ -274,7 +274,7 @@ class Threads(Case):
 
 
 class Convert(Case):
-    def test_mesh_file_to_every_format(self):
+    def test_mesh_file_to_vtu_and_back(self):
         self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "vtu=direct.vtu")
         self.assertIn("vtu", self.succeed("convert", "mesh.h5", "out.vtu"))
         self.assertEqual((self.folder / "out.vtu").read_bytes(), (self.folder / "direct.vtu").read_bytes())
@@ -285,7 +285,8 @@ class Convert(Case):
     def test_mesh_file_to_every_format(self):
         """convert gives the bytes of build --write, and info knows what it is."""
         outputs = {"opm_grid": "a.opmgrid", "mrst": "a.mat", "pflotran": "a.pflotran", "pflotran_h5": "a.pflotran_h5", "tough": "a.tough",
-                   "darts": "a.npz", "darts_h5": "a.darts_h5", "adgprs": "a.adgprs", "csv": "a.tables", "fehm": "a.fehm", "dgf": "a.dgf"}
+                   "darts": "a.npz", "darts_h5": "a.darts_h5", "adgprs": "a.adgprs", "csv": "a.tables", "fehm": "a.fehm", "dgf": "a.dgf",
+                   "openfoam": "a.openfoam", "vtu": "a.vtu", "vtp": "a.vtp", "vtkhdf": "a.vtkhdf"}
         written = [word for name, path in outputs.items() for word in ("--write", f"{name}={path}")]
         self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", *written)
 
@@ -295,14 +296,34 @@ class Convert(Case):
             return [(str(p.relative_to(path)), p.read_bytes()) for p in files]
         for path in outputs.values():
             with self.subTest(path=path):
-                self.succeed("convert", "mesh.h5", "b" + path)
+                self.succeed("convert", "mesh.h5", "b" + path, *(["--source", "box.GRDECL"] if path == "a.vtkhdf" else []))
                 self.assertEqual(content("b" + path), content(path))
-        cells = sum(json.loads(self.succeed("info", "mesh.h5", "--json"))["mesh"]["cells"].values())
-        for path in ("a.opmgrid", "a.pflotran/mesh.uge", "a.tough/MESH", "a.tables/cells.csv", "a.fehm/mesh.stor", "a.dgf"):
-            with self.subTest(path=path):
-                self.assertEqual(json.loads(self.succeed("info", path, "--json"))["exported"]["cells"], cells)
-        for path in ("a.mat", "a.npz", "a.adgprs/connections.txt", "a.tables/connections.csv"):
-            self.assertIn(path, self.succeed("info", path))
+        mesh = json.loads(self.succeed("info", "mesh.h5", "--json"))["mesh"]
+        numbers = {"cells": sum(mesh["cells"].values()), "faces": mesh["faces"], "connections": mesh["connections"], "vertices": mesh["vertices"]}
+        counted = {"cells": ("a.opmgrid", "a.pflotran", "a.pflotran/mesh.uge", "a.pflotran_h5", "a.tough", "a.tough/MESH", "a.npz", "a.darts_h5", "a.tables",
+                             "a.tables/cells.csv", "a.fehm", "a.fehm/mesh.stor", "a.dgf", "a.openfoam", "a.vtu"),
+                   "faces": ("a.opmgrid", "a.dgf", "a.openfoam"),
+                   "connections": ("a.pflotran", "a.pflotran_h5", "a.tough", "a.npz", "a.darts_h5", "a.adgprs", "a.adgprs/connections.txt", "a.tables",
+                                   "a.tables/connections.csv", "a.fehm"),
+                   "vertices": ("a.opmgrid", "a.dgf", "a.openfoam", "a.vtu")}
+        for what, paths in counted.items():
+            for path in paths:
+                with self.subTest(path=path, what=what):
+                    self.assertEqual(json.loads(self.succeed("info", path, "--json"))["exported"][what], numbers[what])
+        self.assertEqual(json.loads(self.succeed("info", "a.vtkhdf", "--json"))["exported"]["cells"], 1800)
+        self.assertEqual(json.loads(self.succeed("info", "a.vtp", "--json"))["exported"]["cells"], 1)
+        self.assertIn("a.mat", self.succeed("info", "a.mat"))
+
+    def test_vtkhdf_needs_the_source(self):
+        self.succeed("build", "box.GRDECL", "-o", "mesh.h5")
+        self.fail_with(1, "convert", "mesh.h5", "host.vtkhdf", mention=["--source"])
+        self.assertFalse((self.folder / "host.vtkhdf").exists())
+
+    def test_vtu_for_geos(self):
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "vtu=geos.vtu,for=geos")
+        self.succeed("convert", "mesh.h5", "again.vtu", "--to", "vtu,for=geos")
+        self.assertEqual((self.folder / "geos.vtu").read_bytes(), (self.folder / "again.vtu").read_bytes())
+        self.fail_with(2, "convert", "mesh.h5", "none.vtu", "--to", "vtu,for=nobody", mention=["for", "paraview|geos"])
 
     def test_mesh_file_to_a_folder(self):
         self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5", "--write", "openfoam=direct")

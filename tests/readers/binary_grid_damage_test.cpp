@@ -13,6 +13,7 @@
 #include "readers/describe.h"
 #include "tests/readers/reader_helpers.h"
 #include "tests/support/random_seed.h"
+#include "tests/support/rounds.h"
 
 namespace wellknit {
 namespace {
@@ -20,11 +21,8 @@ namespace {
 constexpr int cuts = 200;
 constexpr int flips = 1000;
 constexpr std::size_t small_sample = 15'000;  // bytes; real ones are larger
-#ifdef __SANITIZE_ADDRESS__
-constexpr long sanitizer_kb = 400'000;  // it keeps up to 256 MB of freed memory aside, and notes beside all of it
-#else
-constexpr long sanitizer_kb = 0;
-#endif
+// The address sanitizer keeps up to 256 MB of freed memory aside, and notes beside all of it.
+constexpr long sanitizer_kb = has_few_rounds ? 400'000 : 0;
 constexpr long most_growth_kb = 300'000 + sanitizer_kb;  // the largest sample has 1.4 MB
 
 long peak_kb() {

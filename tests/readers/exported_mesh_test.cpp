@@ -35,6 +35,16 @@ std::vector<Sample> samples() {
           {"AD-GPRS connections", "TPFACONNSN\n1\n0 1 2 3\n/\n", {-1, -1, -1, 1}},
           {"cell table", "cell,kind,x,y,depth,volume\n0,host\n1,host\n", {2, -1, -1, -1}},
           {"connection table", "first,second,kind,t\n0,1,face,2\n", {-1, -1, -1, 1}},
+          {"VTU",
+           "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n<Piece NumberOfPoints=\"12\" "
+           "NumberOfCells=\"2\">",
+           {2, -1, 12, -1}},
+          {"VTP",
+           "<VTKFile type=\"PolyData\">\n<Piece NumberOfPoints=\"5\" NumberOfVerts=\"0\" NumberOfLines=\"1\">",
+           {1, -1, 5, -1}},
+          {"OpenFOAM labels",
+           "FoamFile\n{\n class labelList;\n note \"nPoints: 12 nCells: 2 nFaces: 11 nInternalFaces: 1\";\n}\n",
+           {2, 11, 12, -1}},
           {"FEHM coefficients", "fehmstor ascir8i4 x\n01/01/1980\n 2 2 7 1 2\n", {2, -1, -1, 1}},
           {"DGF", "DGF\nVertex\n0 0 0\n1 0 0\n1 1 0\n#\nPolygon\n0 1 2\n#\nPolyhedron\n0\n0\n#\n", {2, 1, 3, -1}}};
 }

@@ -353,6 +353,9 @@ def check(wellknit, arguments, pillars, folder):
     quality = json.loads(checked.stdout)["quality"]
     angle = max(v for k, v in quality.items() if re.fullmatch(r"nonorth_\w+_max_deg", k))
     skewness = max(quality["max_skewness"], quality["max_boundary_skewness"])
+    same = {"non-orthogonality": "checkmesh_nonorth_max_deg", "mean non-orthogonality": "checkmesh_nonorth_mean_deg",
+            "skewness": "checkmesh_skewness_max"}
+    faults += differences({name: quality[figure] for name, figure in same.items()}, theirs)
     lines = [f"{ours['cells']} cells, {ours['faces']} faces, {ours['points']} points; "
              + " ".join(f"{k} {v}" for k, (v, _) in found.items())]
     for name, checked in (("non-orthogonality", angle), ("skewness", skewness)):

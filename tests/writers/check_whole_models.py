@@ -12,7 +12,8 @@ import sys
 import tempfile
 
 FORMATS = {"opm_grid": ".opmgrid", "mrst": ".mat", "pflotran": ".pflotran", "pflotran_h5": ".pflotran_h5", "tough": ".tough",
-           "darts": ".npz", "darts_h5": ".darts_h5", "adgprs": ".adgprs", "csv": ".tables", "fehm": ".fehm", "dgf": ".dgf"}
+           "darts": ".npz", "darts_h5": ".darts_h5", "adgprs": ".adgprs", "csv": ".tables", "fehm": ".fehm", "dgf": ".dgf",
+           "vtp": ".vtp", "vtkhdf": ".vtkhdf"}
 SKIPPED = 77
 
 
@@ -37,7 +38,7 @@ def checks(project, reader, folder):
     loaders = str(project / "writers" / "loaders")
     return [["check_opm_grid.py", folder, reader, "--geometry"], ["check_mrst.py", folder, loaders, "--twisted"],
             ["check_pflotran.py", folder], ["check_tough.py", folder], ["check_darts.py", folder, loaders],
-            ["check_text_tables.py", folder]]
+            ["check_text_tables.py", folder], ["check_vtu.py", folder, "--twisted"]]
 
 
 def main():
@@ -48,6 +49,7 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 base = pathlib.Path(folder) / name
                 writes = [word for key, end in FORMATS.items() for word in ("--write", f"{key}={base}{end}")]
+                writes += ["--write", f"vtu={base}_geos.vtu,for=geos"]
                 subprocess.run([wellknit, "build", *map(str, arguments), "-o", f"{base}.h5", *writes, "--quiet"], check=True)
                 for script, *words in checks(project, reader, folder):
                     done = subprocess.run([sys.executable, here / script, *words], check=False)

@@ -11,9 +11,11 @@
 
 #include "model/mesh_check.h"
 #include "model/quality.h"
+#include "tests/support/grids.h"
 #include "tests/support/meshes.h"
 #include "writers/formats.h"
 #include "writers/write_flow_deck.h"
+#include "writers/write_geos.h"
 
 namespace wellknit {
 namespace {
@@ -36,8 +38,14 @@ TEST(ExampleFiles, AreWrittenForTheScripts) {
   std::filesystem::create_directories(folder);
   for (const auto& [name, mesh] : examples()) {
     const std::string base = std::string(folder) + "/" + name;
+    const CornerPointGrid source = grids::box(mesh.source_dimensions);
     for (const WriterFormat& format : writer_formats())
-      format.write({mesh, meshes::provenance(), base + std::string(format.extensions.front()), Overwrite::allow});
+      format.write(
+          {mesh, meshes::provenance(), base + std::string(format.extensions.front()), Overwrite::allow, {}, &source});
+    GeosOptions geos;  // no cell of these meshes has more than five sides, and their FIPNUM is below 0
+    geos.most_sides = 4;
+    geos.region = "SATNUM";
+    write_geos(mesh, base + "_geos.vtu", geos, Overwrite::allow);
     write_flow_deck(mesh, base + "_water.data", {FlowFluids::water}, Overwrite::allow);
     std::ofstream(base + "_quality.json") << quality(mesh).to_json();
     EXPECT_TRUE(check_mesh(mesh).empty()) << name;

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/support/grids.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scratch_folder.h"
 
@@ -28,9 +29,9 @@ TEST(WriterFormats, HaveUniqueNamesAndExtensions) {
         std::filesystem::exists(std::string(WELLKNIT_SOURCE_DIR "/docs/formats/") + std::string(format.document)))
         << format.document;
   }
-  EXPECT_EQ(names,
-            (std::set<std::string_view>{"adgprs", "csv", "darts", "darts_h5", "deck", "dgf", "fehm", "hdf5", "mrst",
-                                        "openfoam", "opm_grid", "pflotran", "pflotran_h5", "tough", "vtu"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"adgprs", "csv", "darts", "darts_h5", "deck", "dgf", "fehm", "hdf5",
+                                               "mrst", "openfoam", "opm_grid", "pflotran", "pflotran_h5", "tough",
+                                               "vtkhdf", "vtp", "vtu"}));
 }
 
 TEST(WriterFormats, AreFoundByNameInAnyCase) {
@@ -72,9 +73,11 @@ std::uintmax_t bytes_of(const std::filesystem::path& path) {
 
 TEST(WriterFormats, WriteEachAFileOrAFolder) {
   const ScratchFolder folder;
+  const Mesh mesh = meshes::ring_in_boxes();
+  const CornerPointGrid source = grids::box(mesh.source_dimensions);
   for (const WriterFormat& format : writer_formats()) {
     const std::string path = folder.file("out" + std::string(format.extensions.front()));
-    format.write({meshes::ring_in_boxes(), meshes::provenance(), path});
+    format.write({mesh, meshes::provenance(), path, Overwrite::refuse, {}, &source});
     EXPECT_EQ(std::filesystem::is_directory(path), !format.contents.empty()) << format.name;
     EXPECT_GT(bytes_of(path), 1000U) << format.name;
   }

@@ -33,16 +33,19 @@ class Mesh:
         return self.loops[self.start[face]:self.start[face + 1]]
 
     def face_geometry(self):
-        vectors, centroids = [], []
-        for face in range(len(self.start) - 1):
-            points = self.points[self.loop(face)]
-            middle = points.mean(0)
-            following = np.roll(points, -1, axis=0)
-            parts = np.cross(points - middle, following - middle) / 2
-            weight = np.linalg.norm(parts, axis=1)
-            vectors.append(parts.sum(0))
-            centroids.append(weight @ ((points + following + middle) / 3) / weight.sum())
-        return np.array(vectors), np.array(centroids)
+        sizes = np.diff(self.start)
+        face = np.repeat(np.arange(len(sizes)), sizes)
+        by_face = lambda values: np.stack([np.bincount(face, v, len(sizes)) for v in values.T], -1)
+        after = np.arange(len(self.loops)) + 1
+        after[self.start[1:] - 1] = self.start[:-1]
+        points, following = self.points[self.loops], self.points[self.loops[after]]
+        # Relative to a point of the face: sums of products of map coordinates would cost digits.
+        origin = self.points[self.loops[self.start[:-1]]]
+        middle = (by_face(points - origin[face]) / sizes[:, None] + origin)[face]
+        parts = np.cross(points - middle, following - middle) / 2
+        weight = np.linalg.norm(parts, axis=1)
+        moment = by_face(weight[:, None] * ((points - origin[face]) + (following - origin[face]) + (middle - origin[face])) / 3)
+        return by_face(parts), moment / np.bincount(face, weight, len(sizes))[:, None] + origin
 
 
 def meshes(folder):
