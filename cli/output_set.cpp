@@ -65,6 +65,17 @@ void write_text(const std::string& text, const std::string& file, const std::str
   out.close();
 }
 
+/// A message with the paths that the user gave in the place of those that the outputs have while they are written.
+std::string with_the_users_names(std::string message, const PendingOutputs& pending) {
+  for (std::size_t i = 0; i < pending.files.size(); ++i) {
+    const std::string& temporary = pending.files[i]->temporary_path();
+    for (std::size_t at = message.find(temporary); at != std::string::npos;
+         at = message.find(temporary, at + pending.paths[i].size()))
+      message.replace(at, temporary.size(), pending.paths[i]);
+  }
+  return message;
+}
+
 }  // namespace
 
 bool OutputSet::has_folder(const OutputRequest& output) const {
@@ -105,11 +116,9 @@ OutputSet::OutputSet(std::vector<OutputRequest> outputs, const std::vector<std::
   }
 }
 
-std::vector<WrittenFile> OutputSet::write(const Mesh& mesh, const Provenance& provenance,
-                                          const OutputSources& sources) const {
-  std::vector<std::unique_ptr<OutputFile>> files;
-  std::vector<std::string> paths;
-  std::vector<WrittenFile> written;
+void OutputSet::write_beside(const Mesh& mesh, const Provenance& provenance, const OutputSources& sources,
+                             PendingOutputs& pending) const {
+  auto& [files, paths, written] = pending;
   for (const OutputRequest& output : outputs_) {
     const WriterFormat& format = format_named(output.format);
     const Overwrite overwrite = overwrite_ ? Overwrite::allow : Overwrite::refuse;
@@ -147,15 +156,25 @@ std::vector<WrittenFile> OutputSet::write(const Mesh& mesh, const Provenance& pr
     write_text(sources.page_text(), files.back()->temporary_path(), path);
     written.push_back({own_.page->format, path, files.back()->size(), {}});
   }
+}
+
+std::vector<WrittenFile> OutputSet::write(const Mesh& mesh, const Provenance& provenance,
+                                          const OutputSources& sources) const {
+  PendingOutputs pending;
+  try {
+    write_beside(mesh, provenance, sources, pending);
+  } catch (const WriteError& error) {
+    throw WriteError(with_the_users_names(error.what(), pending));
+  }
   // Every byte is on the disk: what is left is to give the names.
   const auto hold = hold_unfinished_outputs();
   AllOrNone named;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    files[i]->commit();
-    named.add(paths[i]);
+  for (std::size_t i = 0; i < pending.files.size(); ++i) {
+    pending.files[i]->commit();
+    named.add(pending.paths[i]);
   }
   named.keep();
-  return written;
+  return std::move(pending.written);
 }
 
 }  // namespace wellknit

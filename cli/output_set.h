@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "model/mesh.h"
 #include "model/provenance.h"
 #include "writers/formats.h"
+#include "writers/output_file.h"
 
 namespace wellknit {
 
@@ -41,6 +43,13 @@ struct OutputSources {
   std::function<std::string()> page_text = {};  ///< where there is a page
 };
 
+/// Outputs that stand beside their targets under other names.
+struct PendingOutputs {
+  std::vector<std::unique_ptr<OutputFile>> files;
+  std::vector<std::string> paths;  ///< where each shall be
+  std::vector<WrittenFile> written;
+};
+
 class OutputSet {
  public:
   /// Asked before the work begins. Throws UsageError for an unknown format, two outputs with one path, or an output
@@ -54,6 +63,8 @@ class OutputSet {
 
  private:
   [[nodiscard]] bool has_folder(const OutputRequest& output) const;
+  void write_beside(const Mesh& mesh, const Provenance& provenance, const OutputSources& sources,
+                    PendingOutputs& pending) const;
 
   std::vector<OutputRequest> outputs_;
   bool overwrite_;

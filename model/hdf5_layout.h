@@ -42,6 +42,10 @@ class Handle {
 class Silence {
  public:
   Silence() {
+    // At the end of the program the library closes what it could not close before, and after a write that failed (a
+    // full disk) it crashes there. We close all handles ourselves. Only before its first use can it be told so.
+    static const herr_t without_clean_up = H5dont_atexit();
+    (void)without_clean_up;
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

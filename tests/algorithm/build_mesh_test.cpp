@@ -65,6 +65,7 @@ TEST(BuildMesh, IsValidForEveryDeformationAndKindOfWell) {
 
 TEST(BuildMesh, InABoxGridTransitionFacesAreOrthogonalAndPlanar) {
   for (const Path path : {Path::vertical, Path::deviated, Path::curved, Path::horizontal}) {
+    if (has_few_rounds && path != Path::curved) continue;
     const Mesh mesh = build_mesh(near_well::deformed(0.0), {near_well::well(path, 12.0)}, {}).mesh;
     const auto& c = mesh.connections;
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -119,6 +120,7 @@ TEST(BuildMesh, MixesLayeredAndSweptWellsInOneCavity) {
 
 TEST(BuildMesh, OfAMirroredGridIsValidToo) {
   for (const Path path : {Path::vertical, Path::curved, Path::horizontal}) {
+    if (has_few_rounds && path != Path::curved) continue;
     Case source = near_well::deformed(0.5);
     Well well = near_well::well(path, 12.0);
     for (std::size_t i = 1; i < source.grid.coord.size(); i += 3)
@@ -222,7 +224,7 @@ TEST(BuildMesh, IsTheSameWhateverStandsInMemory) {
   const std::vector<Well> wells{near_well::well(Path::curved, 12.0)};
   const Mesh first_mesh = build_mesh(source, wells, {}).mesh;
   std::vector<std::unique_ptr<std::vector<char>>> clutter;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < (has_few_rounds ? 1U : 4U); ++i) {
     for (std::size_t j = 0; j < 500; ++j)
       clutter.push_back(std::make_unique<std::vector<char>>(100 + 977 * ((i + 3 * j) % 50)));
     for (std::size_t j = i; j < clutter.size(); j += 3) clutter[j].reset();
@@ -297,8 +299,10 @@ TEST(BuildMesh, MeshesAllWellsOfSpe9) {
     w.radial.drainage_radius = 30.0;
     w.radial.sectors = 6;  // the shape of the mesh does not depend on it, the time does
   }
+  ASSERT_EQ(wells.size(), 26U);
+  if (has_few_rounds) wells.resize(4);
   const BuildResult result = build_mesh(source, wells, {});
-  ASSERT_EQ(result.summary.wells.size(), 26U);
+  ASSERT_EQ(result.summary.wells.size(), wells.size());
   for (const WellSummary& w : result.summary.wells) EXPECT_EQ(w.mode, "layered") << w.name << ": " << w.reason;
   EXPECT_EQ(first(violations_of(result.mesh, false)), "");
 }

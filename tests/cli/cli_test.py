@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import pty
+import resource
 import signal
 import subprocess
 import tempfile
@@ -220,6 +221,28 @@ class BadInput(Case):
         with open("/dev/full", "w") as full:
             result = subprocess.run([PROGRAM, "formats"], stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1))
+
+    def test_a_disk_that_fills_up_leaves_nothing_of_any_format(self):
+        """A limit on the size of files fails a write half-way, as a full disk does."""
+        self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9", "-o", "mesh.h5")
+        before = self.files()
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # the write fails instead
+            resource.setrlimit(resource.RLIMIT_FSIZE, (5_000, 5_000))
+        names = [line.split("[")[1].split("]")[0] for line in self.succeed("formats", "--markdown").splitlines() if line.startswith("| out ")]
+        self.assertGreaterEqual(len(names), 17)
+        for name in names:
+            with self.subTest(format=name):
+                result = subprocess.run([PROGRAM, "convert", "mesh.h5", "out", "--to", name, "--source", "box.GRDECL"], cwd=self.folder, capture_output=True,
+                                        text=True, preexec_fn=limit, restore_signals=False)
+                if name == "vtp":  # smaller than the limit
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    (self.folder / "out").unlink()
+                else:
+                    self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+                    self.assertIn("is the disk full?", result.stderr)
+                self.assertEqual(self.files(), before)
 
 
 class Outputs(Case):
