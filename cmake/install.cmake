@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The wellknit authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `cmake --install` lays down, in two components: the program with its manual and completions; the libraries with
-# their headers and find_package(wellknit).
+# What `cmake --install` lays down, in components: the program with its manual and completions; the libraries with their
+# headers and find_package(wellknit); and, from interface/, the shared library for C and the Python module.
 include(CMakePackageConfigHelpers)
 
 set(WELLKNIT_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/wellknit)

@@ -5,7 +5,7 @@
 
     check_layers.py [PROJECT]
 
-model <- readers, writers, algorithm, report <- conversion <- cli; readers never include algorithm, writers never include
+model <- readers, writers, algorithm, report <- conversion <- cli; interface beside cli; readers never include algorithm, writers never include
 readers.
 Prints one line a fault and exits 1 where there is one.
 """
@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     "report": {"model"},
     "conversion": {"model", "readers", "writers", "algorithm"},
     "cli": {"model", "readers", "writers", "algorithm", "conversion", "report"},
+    "interface": {"model", "readers", "writers", "algorithm"},
     "fuzz": {"model", "readers"},
     "benchmarks": {"model", "readers", "writers", "algorithm"},
 }

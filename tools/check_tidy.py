@@ -18,7 +18,7 @@ import subprocess
 import sys
 import time
 
-FOLDERS = ("model", "readers", "algorithm", "writers", "conversion", "report", "cli")
+FOLDERS = ("model", "readers", "algorithm", "writers", "conversion", "report", "interface", "cli")
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 
 

@@ -9,7 +9,8 @@ build_packages=(cmake ninja-build g++ libeigen3-dev libfmt-dev libtbb-dev libcga
 simulation_packages=(libopm-simulators-bin)
 test_packages=(libgtest-dev libmatio-dev python3 python3-numpy python3-h5py python3-vtk9)
 # Consumers whose tests are skipped without them; openfoam installs in half a minute, with --no-install-recommends.
-optional_packages=(openfoam libopm-grid-dev octave chromium chromium-driver python3-selenium mkdocs)
+# Without gfortran and pybind11 the Fortran example and the Python module are not built.
+optional_packages=(gfortran pybind11-dev python3-dev python3-opm-common openfoam libopm-grid-dev octave chromium chromium-driver python3-selenium mkdocs)
 site_packages=(mkdocs)
 picture_packages=(python3-matplotlib)  # of docs/validation.md, when they are made anew
 benchmark_packages=(libbenchmark-dev libopm-common-dev libopm-grid-dev)

@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: 2026 The wellknit authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python module as its user has it. The environment names the program (WELLKNIT) and the project's folder (WELLKNIT_SOURCE_DIR)."""
+import ast
+import gc
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+import wellknit
+
+PROJECT = pathlib.Path(os.environ["WELLKNIT_SOURCE_DIR"])
+EXAMPLE = PROJECT / "testdata" / "example"
+
+
+class Python(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = wellknit.build(EXAMPLE / "example.GRDECL", [EXAMPLE / "curved.csv", wellknit.Well(EXAMPLE / "steep.dev", sectors=8)], threads=2)
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.file = pathlib.Path(cls.scratch.name) / "mesh.h5"
+        cls.mesh.write(cls.file)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def test_arrays_are_those_of_the_mesh_file(self):
+        with h5py.File(self.file) as file:
+            names = []
+            file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) and name != "wells_order" else None)
+            self.assertEqual(sorted(names), sorted(self.mesh))
+            for name in names:
+                np.testing.assert_array_equal(self.mesh[name], file[name][...], err_msg=name)
+        self.assertEqual(len(self.mesh), len(names))
+        self.assertIn("cells/volume", self.mesh)
+        self.assertNotIn("cells/colour", self.mesh)
+        with self.assertRaises(KeyError):
+            self.mesh["cells/colour"]
+
+    def test_a_read_mesh_has_the_same_arrays(self):
+        again = wellknit.read(str(self.file))
+        for name in self.mesh:
+            np.testing.assert_array_equal(self.mesh[name], again[name], err_msg=name)
+        self.assertNotIn("reason", again.wells[0])
+
+    def test_arrays_are_read_only_and_keep_the_mesh(self):
+        volume = wellknit.read(self.file)["cells/volume"]
+        gc.collect()
+        self.assertGreater(volume.sum(), 0)
+        with self.assertRaises(ValueError):
+            volume[0] = 1.0
+
+    def test_the_same_mesh_as_the_program(self):
+        out = pathlib.Path(self.scratch.name) / "program.h5"
+        subprocess.run([os.environ["WELLKNIT"], "build", EXAMPLE / "example.GRDECL", "--well", EXAMPLE / "curved.csv", "--well",
+                        f"{EXAMPLE / 'steep.dev'},sectors=8", "-o", out, "--quiet"], check=True)
+        theirs = wellknit.read(out)
+        for name in theirs:
+            np.testing.assert_array_equal(self.mesh[name], theirs[name], err_msg=name)
+
+    def test_wells_by_points(self):
+        points = np.array([[250, 260, 1900], [255, 262, 2600]])  # integers are taken as numbers
+        mesh = wellknit.build(EXAMPLE / "example.GRDECL", [wellknit.Well(name="W", points=points, radius=12, mode="layered")], refine="off")
+        self.assertEqual([(w["name"], w["meshed"]) for w in mesh.wells], [("W", True)])
+        self.assertEqual(mesh["wells/W/trajectory"][:, 1:].tolist(), points.tolist())
+        self.assertGreater(mesh.wells[0]["length_meshed"], 0)
+
+    def test_check_and_quality(self):
+        self.assertEqual(self.mesh.violations(), [])
+        checked = json.loads(subprocess.run([os.environ["WELLKNIT"], "check", self.file, "--json"], check=True, capture_output=True, text=True).stdout)
+        self.assertEqual(self.mesh.quality(), checked["quality"])
+
+    def test_formats(self):
+        folder = pathlib.Path(self.scratch.name)
+        self.mesh.write(folder / "out.vtu")
+        self.mesh.write(folder / "tables", format="csv")
+        self.assertTrue((folder / "tables" / "cells.csv").exists())
+        with self.assertRaisesRegex(wellknit.Error, "exist"):
+            self.mesh.write(folder / "out.vtu")
+        self.mesh.write(folder / "out.vtu", overwrite=True)
+        with self.assertRaisesRegex(wellknit.Error, "extension"):
+            self.mesh.write(folder / "out.unknown")
+
+    def test_what_is_wrong_is_said(self):
+        grid = EXAMPLE / "example.GRDECL"
+        for call, text in ((lambda: wellknit.build("nowhere.GRDECL"), "nowhere.GRDECL"), (lambda: wellknit.read(grid), "example.GRDECL"),
+                           (lambda: wellknit.build(grid, deck_wells="all"), "no wells"), (lambda: wellknit.build(grid, refine="often"), "refine"),
+                           (lambda: wellknit.build(grid, colour="red"), "colour"), (lambda: wellknit.Well(name="W", points=[1, 2, 3]), "n rows"),
+                           (lambda: wellknit.Well(grid, mode="round"), "mode"), (lambda: wellknit.build(grid, [wellknit.Well()]), "name"),
+                           (lambda: wellknit.build(grid, [wellknit.Well(EXAMPLE / "curved.csv", sectors=2)]), "sectors")):
+            with self.subTest(text=text), self.assertRaisesRegex(wellknit.Error, text):
+                call()
+        with self.assertRaises(TypeError):
+            wellknit.build(42)
+
+    def test_the_stub_names_what_there_is(self):
+        tree = ast.parse((PROJECT / "interface" / "python" / "wellknit.pyi").read_text())
+        stub = {node.name if hasattr(node, "name") else node.target.id for node in tree.body
+                if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AnnAssign))}
+        self.assertEqual(stub, {name for name in dir(wellknit) if not name.startswith("__") or name == "__version__"})
+        public = lambda names: {name for name in names if not name.startswith("_")}
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef) and node.name in ("Well", "Mesh"):
+                members = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
+                self.assertEqual(public(members), public(dir(getattr(wellknit, node.name))))
+
+
+if __name__ == "__main__":
+    unittest.main()
