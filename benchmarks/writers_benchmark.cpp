@@ -16,6 +16,7 @@
 #include <fstream>
 #include <functional>
 
+#include "tests/support/grids.h"
 #include "tests/support/meshes.h"
 #include "writers/formats.h"
 
@@ -85,6 +86,7 @@ int run(int count, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   const Mesh mesh = map_mesh(count > 2 ? std::atoll(arguments[2]) : 100);
   const std::string_view wanted = count > 3 ? arguments[3] : "";
+  const CornerPointGrid source = grids::box(mesh.source_dimensions);
   ::malloc_trim(0);
   const double before = memory_mb("VmRSS");
   fmt::print("mesh         {:8.1f} MB in memory\n", before);
@@ -95,7 +97,7 @@ int run(int count, char** arguments) {
     ::malloc_trim(0);
     forget_peak();
     const double seconds = seconds_of([&] {
-      format.write({mesh, meshes::provenance(), path.string(), Overwrite::allow});
+      format.write({mesh, meshes::provenance(), path.string(), Overwrite::allow, {}, &source});
     });
     const double size = static_cast<double>(bytes_of(path)) / 1e6;
     fmt::print("{:<12} {:8.1f} MB {:7.2f} s {:8.0f} MB/s  memory {:.2f}\n", format.name, size, seconds, size / seconds,
