@@ -154,6 +154,8 @@ struct CellQuality {
   IdVector<CellId, double> centring;
 };
 CellQuality cell_quality(const Mesh& mesh);
+/// The same with no max_skewness, in a third of the time and without an array of all faces.
+CellQuality cell_quality_without_skewness(const Mesh& mesh);
 
 /// Degrees between a face's area vector and the line from the first cell's centre to the second's.
 double non_orthogonality(const Vec3& area_vector, const Vec3& line);

@@ -4,9 +4,9 @@
 /// VTK's XML files with one raw appended block: arrays, and the frame around them. Points are (x, y, -depth): z up.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdint>
+#include <functional>
+#include <ostream>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,31 +26,46 @@ constexpr std::string_view vtk_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-/// The XML head with its DataArray elements, and the raw block that they point into.
+/// The DataArray elements of a file, and the raw block that they point into, array by array. Only one of those that
+/// are made for the file is in memory at a time, while it is written.
 class AppendedArrays {
  public:
-  /// One row per point or cell, of `components` numbers.
+  /// One row per point or cell, of `components` numbers. The array must live until the file is written.
   template <class Array>
   std::string element(std::string_view name, const Array& values, int components = 1) {
     using T = typename Array::value_type;
-    std::string escaped;
-    for (const char c : name)
-      escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-    const std::string xml = fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        vtk_type<T>(), escaped, components, block_.size());
-    const std::uint64_t bytes = values.size() * sizeof(T);
-    append(&bytes, sizeof bytes);
-    append(values.data(), bytes);
-    return xml;
+    return add(name, vtk_type<T>(), components, values.size() * sizeof(T), [array = &values](std::ostream& out) {
+      out.write(reinterpret_cast<const char*>(array->data()), static_cast<std::streamsize>(array->size() * sizeof(T)));
+    });
   }
-  [[nodiscard]] const std::string& block() const { return block_; }
+  template <class Array>
+  std::string element(std::string_view name, const Array&& values, int components = 1) = delete;
+
+  /// The same of `rows` rows that `make()` gives when they are written, as an array of numbers. What it looks at must
+  /// live until then.
+  template <class Make>
+  std::string made_element(std::string_view name, std::size_t rows, const Make& make, int components = 1) {
+    using T = typename decltype(make())::value_type;
+    return add(name, vtk_type<T>(), components, rows * static_cast<std::size_t>(components) * sizeof(T),
+               [make](std::ostream& out) {
+                 const auto values = make();
+                 out.write(reinterpret_cast<const char*>(values.data()),
+                           static_cast<std::streamsize>(values.size() * sizeof(T)));
+               });
+  }
+
+  void write(std::ostream& out) const;
 
  private:
-  void append(const void* data, std::size_t bytes) {
-    if (bytes > 0) block_.append(static_cast<const char*>(data), bytes);
-  }
-  std::string block_;
+  using WriteData = std::function<void(std::ostream&)>;
+  std::string add(std::string_view name, std::string_view type, int components, std::uint64_t bytes, WriteData data);
+
+  struct Entry {
+    std::uint64_t bytes;
+    WriteData write;
+  };
+  std::vector<Entry> entries_;
+  std::uint64_t size_ = 0;  ///< of the block so far
 };
 
 inline double up(double depth) { return depth == 0.0 ? 0.0 : -depth; }  // no negative zero

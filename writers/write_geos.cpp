@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "model/errors.h"
@@ -42,36 +43,51 @@ double porosity(const Mesh& mesh, CellId cell) {
   return sand > 0.0 ? mesh.cells.pore_volume[cell] / sand : mesh.cells.porosity[cell];
 }
 
-std::string cell_data(AppendedArrays& arrays, const Mesh& mesh, const SplitCells& split, const std::string& region) {
-  const Cells& cells = mesh.cells;
-  const std::vector<std::int32_t> attribute = regions(mesh, region);
+std::string cell_data(AppendedArrays& arrays, const Mesh& its_mesh, const SplitCells& its_split,
+                      const std::vector<std::int32_t>& its_regions) {
+  // Pointers: the arrays are made when this has returned.
+  const Mesh* const mesh = &its_mesh;
+  const SplitCells* const split = &its_split;
+  const std::int32_t* const regions = its_regions.data();
   std::string xml;
-  xml += arrays.element("attribute", of_pieces(split, [&](CellId c) { return attribute[c.index()]; }));
-  xml += arrays.element("PERM", flat(of_pieces(split, [&](CellId c) { return cells.permeability[c]; })), 3);
-  xml += arrays.element("PORO", of_pieces(split, [&](CellId c) { return porosity(mesh, c); }));
-  xml += arrays.element("NTG", of_pieces(split, [&](CellId c) { return cells.net_to_gross[c]; }));
-  xml += arrays.element("cell", of_pieces(split, [](CellId c) { return std::int64_t{c.value()}; }));
-  xml += arrays.element("kind", of_pieces(split, [&](CellId c) { return static_cast<std::uint8_t>(cells.kind[c]); }));
-  xml += arrays.element("volume", split.volume);
-  for (const auto& [keyword, property] : cells.properties)
-    std::visit(
-        [&, &key = keyword](const auto& values) {
-          xml += arrays.element(key, of_pieces(split, [&](CellId c) { return values[c.index()]; }));
-        },
-        property);
+  const auto made = [&xml, &arrays, split](std::string_view name, auto get, int components = 1) {
+    const auto make = [split, get] {
+      if constexpr (std::is_same_v<decltype(get(CellId())), Vec3>)
+        return flat(of_pieces(*split, get));
+      else
+        return of_pieces(*split, get);
+    };
+    xml += arrays.made_element(name, split->mesh_cell.size(), make, components);
+  };
+  made("attribute", [regions](CellId c) { return regions[c.index()]; });
+  made(
+      "PERM", [mesh](CellId c) { return mesh->cells.permeability[c]; }, 3);
+  made("PORO", [mesh](CellId c) { return porosity(*mesh, c); });
+  made("NTG", [mesh](CellId c) { return mesh->cells.net_to_gross[c]; });
+  made("cell", [](CellId c) { return std::int64_t{c.value()}; });
+  made("kind", [mesh](CellId c) { return static_cast<std::uint8_t>(mesh->cells.kind[c]); });
+  xml += arrays.element("volume", split->volume);
+  for (const auto& [keyword, property] : mesh->cells.properties)
+    std::visit([&made, &key = keyword](
+                   const auto& values) { made(key, [data = values.data()](CellId c) { return data[c.index()]; }); },
+               property);
   return xml;
 }
 
-std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh, const SplitCells& split, const std::string& region) {
+std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh, const SplitCells& split,
+                     const std::vector<std::int32_t>& regions) {
   std::string xml =
       fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", split.points.size(), split.mesh_cell.size());
-  xml += "<Points>\n" + arrays.element("Points", flat_points(split.points), 3) + "</Points>\n<Cells>\n";
+  xml += "<Points>\n" +
+         arrays.made_element(
+             "Points", split.points.size(), [points = &split.points] { return flat_points(*points); }, 3) +
+         "</Points>\n<Cells>\n";
   xml += arrays.element("connectivity", split.cells.connectivity);
   xml += arrays.element("offsets", split.cells.offsets);
   xml += arrays.element("types", split.cells.types);
   xml += arrays.element("faces", split.cells.faces);
   xml += arrays.element("faceoffsets", split.cells.face_offsets);
-  xml += "</Cells>\n<CellData Scalars=\"attribute\">\n" + cell_data(arrays, mesh, split, region) +
+  xml += "</Cells>\n<CellData Scalars=\"attribute\">\n" + cell_data(arrays, mesh, split, regions) +
          "</CellData>\n</Piece>\n";
   return xml;
 }
@@ -97,9 +113,10 @@ std::vector<std::string> notes_of(const Mesh& mesh, const SplitCells& split) {
 std::vector<std::string> write_geos(const Mesh& mesh, const std::string& path, const GeosOptions& options,
                                     Overwrite overwrite) {
   OutputStream out(path, overwrite);
+  const std::vector<std::int32_t> region = regions(mesh, options.region);
   const SplitCells split = split_cells(mesh, options.most_sides);
   AppendedArrays arrays;
-  const std::string grid = grid_xml(arrays, mesh, split, options.region);
+  const std::string grid = grid_xml(arrays, mesh, split, region);
   write_vtk_file(out, "UnstructuredGrid", grid, arrays);
   out.commit();
   return notes_of(mesh, split);

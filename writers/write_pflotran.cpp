@@ -119,6 +119,8 @@ class PflotranFolder {
     points.clear();
     std::vector<double> areas;
     std::vector<std::array<std::int32_t, 2>> pairs;
+    areas.reserve(mesh_.connections.size());
+    pairs.reserve(mesh_.connections.size());
     for (std::size_t n = 0; n < mesh_.connections.size(); ++n) {
       const Link found = link(ConnectionId(n));
       const auto& [a, b] = mesh_.connections.cells[ConnectionId(n)];

@@ -24,46 +24,43 @@ std::string string_element(std::string_view name, const std::vector<std::string>
 }
 
 struct Polylines {
-  std::vector<Vec3> points;
+  std::vector<double> points;  ///< with z up
   std::vector<double> measured_depth;
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;
+  std::vector<std::string> name;
+  std::vector<double> bore_radius;
+  std::vector<double> drainage_radius;
+  std::vector<std::uint8_t> injector;
 
   explicit Polylines(const Mesh& mesh) {
     for (const MeshWell& well : mesh.wells) {
       const Trajectory& path = well.trajectory;
-      points.insert(points.end(), path.points.begin(), path.points.end());
+      for (const double coordinate : flat_points(path.points)) points.push_back(coordinate);
       measured_depth.insert(measured_depth.end(), path.measured_depth.begin(), path.measured_depth.end());
-      offsets.push_back(static_cast<std::int64_t>(points.size()));
+      offsets.push_back(static_cast<std::int64_t>(measured_depth.size()));
+      name.push_back(well.name);
+      bore_radius.push_back(well.bore_radius);
+      drainage_radius.push_back(well.drainage_radius);
+      injector.push_back(well.type == WellType::injector ? 1 : 0);
     }
-    for (std::size_t n = 0; n < points.size(); ++n) connectivity.push_back(static_cast<std::int64_t>(n));
+    for (std::size_t n = 0; n < measured_depth.size(); ++n) connectivity.push_back(static_cast<std::int64_t>(n));
   }
 };
 
-/// VTK reads the four kinds of cells of a polygonal data set in this order.
-std::string cells_element(AppendedArrays& arrays, std::string_view kind, const std::vector<std::int64_t>& connectivity,
-                          const std::vector<std::int64_t>& offsets) {
-  std::string xml = fmt::format("<{}>\n", kind);
-  xml += arrays.element("connectivity", connectivity);
-  xml += arrays.element("offsets", offsets);
-  return xml + fmt::format("</{}>\n", kind);
-}
-
-std::string wells_xml(AppendedArrays& arrays, const Mesh& mesh) {
-  const Polylines lines(mesh);
+std::string wells_xml(AppendedArrays& arrays, const Polylines& lines) {
   std::string xml = fmt::format(
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"0\">\n",
-      lines.points.size(), lines.offsets.size());
-  xml += "<Points>\n" + arrays.element("Points", flat_points(lines.points), 3) + "</Points>\n";
-  xml += cells_element(arrays, "Lines", lines.connectivity, lines.offsets);
-  xml += "<PointData>\n" + arrays.element("measured_depth", lines.measured_depth) + "</PointData>\n<CellData>\n";
-  const auto& wells = mesh.wells.raw();
-  xml += string_element("name", mapped(wells, [](const MeshWell& w) { return w.name; }));
-  xml += arrays.element("bore_radius", mapped(wells, [](const MeshWell& w) { return w.bore_radius; }));
-  xml += arrays.element("drainage_radius", mapped(wells, [](const MeshWell& w) { return w.drainage_radius; }));
-  xml += arrays.element("injector",
-                        mapped(wells, [](const MeshWell& w) { return std::uint8_t{w.type == WellType::injector}; }));
+      lines.measured_depth.size(), lines.offsets.size());
+  xml += "<Points>\n" + arrays.element("Points", lines.points, 3) + "</Points>\n<Lines>\n";
+  xml += arrays.element("connectivity", lines.connectivity);
+  xml += arrays.element("offsets", lines.offsets);
+  xml += "</Lines>\n<PointData>\n" + arrays.element("measured_depth", lines.measured_depth);
+  xml += "</PointData>\n<CellData>\n" + string_element("name", lines.name);
+  xml += arrays.element("bore_radius", lines.bore_radius);
+  xml += arrays.element("drainage_radius", lines.drainage_radius);
+  xml += arrays.element("injector", lines.injector);
   return xml + "</CellData>\n</Piece>\n";
 }
 
@@ -71,8 +68,9 @@ std::string wells_xml(AppendedArrays& arrays, const Mesh& mesh) {
 
 std::vector<std::string> write_vtp(const Mesh& mesh, const std::string& path, Overwrite overwrite) {
   OutputStream out(path, overwrite);
+  const Polylines lines(mesh);
   AppendedArrays arrays;
-  const std::string wells = wells_xml(arrays, mesh);
+  const std::string wells = wells_xml(arrays, lines);
   write_vtk_file(out, "PolyData", wells, arrays);
   out.commit();
   if (mesh.wells.size() == 0) return {"the mesh has no wells: the file has no lines"};

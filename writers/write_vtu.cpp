@@ -20,6 +20,10 @@ namespace {
 VtkCells vtk_cells(const Mesh& mesh) {
   const CellFaces faces = faces_of_cells(mesh);
   VtkCells out;
+  out.connectivity.reserve(8 * mesh.cells.size());
+  out.offsets.reserve(mesh.cells.size());
+  out.types.reserve(mesh.cells.size());
+  out.face_offsets.reserve(mesh.cells.size());
   CellSurface surface;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     surface.assign(mesh, faces.of(CellId(c)));
@@ -36,50 +40,61 @@ VtkCells vtk_cells(const Mesh& mesh) {
   return out;
 }
 
-std::string cell_data(AppendedArrays& arrays, const Mesh& mesh) {
-  const Cells& cells = mesh.cells;
+std::string cell_data(AppendedArrays& arrays, const Mesh& mesh, const CellQuality& quality) {
+  const Cells* const cells = &mesh.cells;
+  const std::size_t count = cells->size();
   std::string xml;
-  xml +=
-      arrays.element("kind", mapped(cells.kind.raw(), [](CellKind kind) { return static_cast<std::uint8_t>(kind); }));
-  xml += arrays.element("center", flat_points(cells.center.raw()), 3);
-  xml += arrays.element("volume", cells.volume.raw());
-  xml += arrays.element("depth", cells.depth.raw());
-  xml += arrays.element("source_cell", mapped(cells.source_cell.raw(), [](HostCellId cell) { return cell.value(); }));
-  xml += arrays.element("well",
-                        mapped(cells.well.raw(), [](WellId well) { return static_cast<std::int32_t>(well.value()); }));
-  xml += arrays.element("radial_segment",
-                        mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.segment; }));
-  xml += arrays.element("radial_sector",
-                        mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.sector; }));
-  xml += arrays.element("radial_ring", mapped(cells.radial_index.raw(), [](const RadialIndex& at) { return at.ring; }));
-  xml += arrays.element("pore_volume", cells.pore_volume.raw());
-  xml += arrays.element("porosity", cells.porosity.raw());
-  xml += arrays.element("net_to_gross", cells.net_to_gross.raw());
-  xml += arrays.element("permeability", flat(cells.permeability.raw()), 3);
+  const auto made = [&](std::string_view name, auto make, int components = 1) {
+    xml += arrays.made_element(name, count, make, components);
+  };
+  made("kind",
+       [cells] { return mapped(cells->kind.raw(), [](CellKind kind) { return static_cast<std::uint8_t>(kind); }); });
+  made(
+      "center", [cells] { return flat_points(cells->center.raw()); }, 3);
+  xml += arrays.element("volume", cells->volume.raw());
+  xml += arrays.element("depth", cells->depth.raw());
+  made("source_cell", [cells] {
+    return mapped(cells->source_cell.raw(), [](HostCellId cell) { return std::int64_t{cell.value()}; });
+  });
+  made("well", [cells] {
+    return mapped(cells->well.raw(), [](WellId well) { return static_cast<std::int32_t>(well.value()); });
+  });
+  made("radial_segment",
+       [cells] { return mapped(cells->radial_index.raw(), [](const RadialIndex& at) { return at.segment; }); });
+  made("radial_sector",
+       [cells] { return mapped(cells->radial_index.raw(), [](const RadialIndex& at) { return at.sector; }); });
+  made("radial_ring",
+       [cells] { return mapped(cells->radial_index.raw(), [](const RadialIndex& at) { return at.ring; }); });
+  xml += arrays.element("pore_volume", cells->pore_volume.raw());
+  xml += arrays.element("porosity", cells->porosity.raw());
+  xml += arrays.element("net_to_gross", cells->net_to_gross.raw());
+  made(
+      "permeability", [cells] { return flat(cells->permeability.raw()); }, 3);
 
-  const CellQuality quality = cell_quality(mesh);
   xml += arrays.element("max_non_orthogonality", quality.max_non_orthogonality.raw());
   xml += arrays.element("max_k_non_orthogonality", quality.max_k_non_orthogonality.raw());
   xml += arrays.element("max_planarity", quality.max_planarity.raw());
   xml += arrays.element("min_transmissibility", quality.min_transmissibility.raw());
   xml += arrays.element("centring", quality.centring.raw());
   if (mesh.flow) xml += arrays.element("pressure", mesh.flow->pressure.raw());
-  for (const auto& [keyword, property] : cells.properties)
+  for (const auto& [keyword, property] : cells->properties)
     xml += std::visit([&, &key = keyword](const auto& values) { return arrays.element(key, values); }, property);
   return xml;
 }
 
-std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh) {
-  const VtkCells cells = vtk_cells(mesh);
+std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh, const VtkCells& cells, const CellQuality& quality) {
   std::string xml =
       fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.vertices.size(), mesh.cells.size());
-  xml += "<Points>\n" + arrays.element("Points", flat_points(mesh.vertices.raw()), 3) + "</Points>\n<Cells>\n";
+  xml += "<Points>\n" +
+         arrays.made_element(
+             "Points", mesh.vertices.size(), [points = &mesh.vertices.raw()] { return flat_points(*points); }, 3) +
+         "</Points>\n<Cells>\n";
   xml += arrays.element("connectivity", cells.connectivity);
   xml += arrays.element("offsets", cells.offsets);
   xml += arrays.element("types", cells.types);
   xml += arrays.element("faces", cells.faces);
   xml += arrays.element("faceoffsets", cells.face_offsets);
-  xml += "</Cells>\n<CellData Scalars=\"kind\">\n" + cell_data(arrays, mesh) + "</CellData>\n</Piece>\n";
+  xml += "</Cells>\n<CellData Scalars=\"kind\">\n" + cell_data(arrays, mesh, quality) + "</CellData>\n</Piece>\n";
   return xml;
 }
 
@@ -87,8 +102,10 @@ std::string grid_xml(AppendedArrays& arrays, const Mesh& mesh) {
 
 void write_vtu(const Mesh& mesh, const std::string& path, Overwrite overwrite) {
   OutputStream out(path, overwrite);
+  const CellQuality quality = cell_quality_without_skewness(mesh);
+  const VtkCells cells = vtk_cells(mesh);
   AppendedArrays arrays;
-  const std::string grid = grid_xml(arrays, mesh);
+  const std::string grid = grid_xml(arrays, mesh, cells, quality);
   write_vtk_file(out, "UnstructuredGrid", grid, arrays);
   out.commit();
 }
