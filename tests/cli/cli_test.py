@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import resource
 import signal
 import subprocess
@@ -891,6 +892,14 @@ class Commands(Case):
 class Documents(Case):
     def test_readme_has_the_table_of_formats(self):
         self.assertIn(self.succeed("formats", "--markdown"), (PROJECT / "README.md").read_text())
+
+    def test_every_option_is_in_its_commands_page(self):
+        for command in ("build", "check", "report", "info", "convert", "solve", "map", "compare", "formats"):
+            page = (PROJECT / "docs" / "commands" / f"{command}.md").read_text()
+            options = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", self.succeed(command, "--help"))) - {"--help", "--version"}
+            for option in sorted(options):
+                with self.subTest(command=command):
+                    self.assertIn(option, page)
 
     def test_every_format_has_its_page(self):
         for line in self.succeed("formats", "--markdown").splitlines()[2:]:
