@@ -45,10 +45,14 @@ void handle_interruptions() {
     if (sigwait(&signals, &number) != 0) return;
     remove_unfinished_outputs();
     const std::string line = std::string(is_terminal(Stream::error) ? "\r\033[K" : "") + "wellknit: stopped by " +
-                             (number == SIGINT ? "Ctrl-C" : "a signal") + "; nothing was written\n";
+                             (number == SIGINT    ? "Ctrl-C"
+                              : number == SIGTERM ? "SIGTERM"
+                                                  : "SIGHUP") +
+                             "; nothing was written\n";
     // Not through stderr's buffer, which another thread may hold.
-    if (::write(STDERR_FILENO, line.data(), line.size()) < 0) ::_exit(128 + number);
-    die_of(number);
+    const bool is_said = ::write(STDERR_FILENO, line.data(), line.size()) >= 0;
+    if (number == SIGINT && is_said) die_of(number);
+    ::_exit(1);
   }).detach();
 }
 
