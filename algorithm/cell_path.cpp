@@ -17,6 +17,11 @@ namespace {
 /// How far behind an exit the next cell is looked for, m: above the locator's slack at a face (1e-9 of a cell's length
 /// and the rounding of the coordinates), below the accuracy promised.
 constexpr double nudge = 5e-7;
+/// The same as a share of the segment's length, where that is more.
+constexpr double least_step_of_segment = 1e-12;
+/// Parts shorter than this many steps are short; after so many of them in a row the step doubles.
+constexpr double short_part = 10.0;
+constexpr int most_short_parts = 200;
 /// Bisection stops here, m.
 constexpr double bisection_accuracy = 1e-8;
 /// Looks for the next cell along a line's way through the grid's box.
@@ -53,11 +58,21 @@ class Segment {
   /// Calls visit(cell, from, to) for each part in turn.
   void walk(const auto& visit) const {
     if (length_ <= nudge) return;
-    const double step = nudge / length_;
+    // Of a segment of thousands of kilometres, which pillars that nearly lie flat can make, positions have no
+    // micrometres.
+    const double least_step = std::max(nudge / length_, least_step_of_segment);
+    double step = least_step;
+    int short_parts = 0;  // one after another
     for (double t = 0.0; t + step < 1.0;) {
       const auto found = locator_.locate(at(t + step));
-      const double end = found ? exit_of(found->cell, t + step) : next_entry(t + step);
+      const double end = std::max(t + step, found ? exit_of(found->cell, t + step) : next_entry(t + step));
       if (found) visit(found->cell, t, end);
+      // Along a face that two cells take in turn for theirs there is no end of short parts: steps grow there.
+      short_parts = end - t < short_part * step ? short_parts + 1 : 0;
+      if (short_parts == 0)
+        step = least_step;
+      else if (short_parts % most_short_parts == 0)
+        step *= 2.0;
       t = end;
     }
   }
@@ -72,6 +87,7 @@ class Segment {
   [[nodiscard]] double bisect(double inside, double outside, const auto& predicate) const {
     while (std::abs(outside - inside) * length_ > bisection_accuracy) {
       const double middle = 0.5 * (inside + outside);
+      if (middle == inside || middle == outside) break;
       (predicate(middle) ? inside : outside) = middle;
     }
     return std::max(inside, outside);

@@ -55,6 +55,17 @@ TEST(CellPath, CutsAVerticalWellAtTheLayers) {
   }
 }
 
+/// A path may be so long that neighbouring numbers on it are further apart than the accuracy that is asked for.
+TEST(CellPath, EndsOnPathsOfAnyLength) {
+  const auto grid = grids::box({3, 3, 3});
+  for (const double half : {1e6, 1e9, 1e12, 1e15}) {
+    const auto parts = parts_in(grid, straight({Vec3(15.0 - half, 30, 1007.5), Vec3(15.0 + half, 30, 1007.5)}));
+    if (half > 1e10) continue;  // a grid of 30 m is within the rounding of such positions
+    ASSERT_EQ(parts.size(), 3U) << half;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(parts[i].cell, grid.cell_id(static_cast<std::int64_t>(i), 1, 1));
+  }
+}
+
 TEST(CellPath, FollowsADeviatedWellThroughThreeColumns) {
   const auto grid = grids::box({3, 1, 3});
   // x from 0 to 30 while the depth goes from 1000 to 1015: the diagonal crosses a column's side and a layer at once
