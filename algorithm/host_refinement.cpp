@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "algorithm/host_balance.h"
 #include "algorithm/host_face_replacement.h"
 #include "algorithm/host_face_writer.h"
 #include "algorithm/host_row.h"
@@ -466,6 +467,7 @@ void refine_host(const CornerPointGrid& grid, RefinementPlan& plan, HostMesh& ho
   for (std::size_t c = 0; c < host.refined.is_refined.size(); ++c)
     host.refined.is_refined[c] = is_refined[c % is_refined.size()];
   replace_faces(lattice, replacement, host);
+  balance_cut_tops(host);
 }
 
 }  // namespace wellknit
