@@ -25,13 +25,18 @@ std::set<std::array<std::int64_t, 2>> columns_of(const Cluster& cluster) {
   std::set<std::array<std::int64_t, 2>> out;
   const NearWellGrid& g = *cluster.grid;
   constexpr std::int64_t around = 4;
-  for (const NearWellCell& c : cluster.mesh->cavity.removed)
-    for (const std::int64_t di : {-around, around})
-      for (const std::int64_t dj : {-around, around}) {
-        const std::int64_t i = std::clamp<std::int64_t>(c[0] + di, 0, g.dimensions()[0] - 1);
-        const std::int64_t j = std::clamp<std::int64_t>(c[1] + dj, 0, g.dimensions()[1] - 1);
-        out.insert(g.source_column({i, j, 0}));
-      }
+  for (const NearWellCell& c : cluster.mesh->cavity.removed) {
+    std::array<std::int64_t, 2> low{};
+    std::array<std::int64_t, 2> high{};
+    for (std::size_t a = 0; a < 2; ++a) {
+      low[a] = std::max<std::int64_t>(c[a] - around, 0);
+      high[a] = std::min(c[a] + around, g.dimensions()[a] - 1);
+    }
+    const auto first = g.source_column({low[0], low[1], 0});
+    const auto last = g.source_column({high[0], high[1], 0});
+    for (std::int64_t j = first[1]; j <= last[1]; ++j)
+      for (std::int64_t i = first[0]; i <= last[0]; ++i) out.insert({i, j});
+  }
   return out;
 }
 

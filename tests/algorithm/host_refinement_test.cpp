@@ -138,6 +138,7 @@ TEST(PlanRefinement, RefusesWhatDoesNotFit) {
   };
   EXPECT_THROW(plan({{{3, 1}, {{0, 0}}, layers}}), InvalidInput);
   EXPECT_THROW(plan({{{8, 1}, {{0, 0}}, layers}}), InvalidInput);
+  EXPECT_THROW(plan_refinement(grid, host, {3, 4}, {}), InvalidInput);
   EXPECT_THROW(plan({{{2, 2}, {{1, 0}}, layers}}), InvalidInput);
   EXPECT_THROW(plan({{{2, 2}, {{8, 0}}, layers}}), InvalidInput);
   EXPECT_THROW(plan({{{1, 1}, {{0, 0}}, layers}, {{2, 2}, {{0, 0}}, layers}}), InvalidInput);
@@ -392,8 +393,14 @@ TEST(HostRefinement, RefusesAPlanThatLeavesAHole) {
   const auto grid = grids::box({1, 1, 1});
   HostMesh host = build_host_mesh(grid);
   auto plan = plan_refinement(grid, host, {2, 2}, {whole_column({0, 0}, {2, 2}, {1, 1}, ColumnLayers::of_source(1))});
-  plan.columns.pop_back();
-  EXPECT_THROW(refine_host(grid, plan, host), InvalidInput);
+  auto disordered = plan;
+  disordered.layers[0].cells[0].upper.fraction = 2.0;
+  EXPECT_THROW(refine_host(grid, disordered, host), InvalidInput);
+  auto with_hole = plan;
+  with_hole.columns.pop_back();
+  EXPECT_THROW(refine_host(grid, with_hole, host), InvalidInput);
+  refine_host(grid, plan, host);
+  EXPECT_THROW(refine_host(grid, plan, host), InvalidInput) << "twice";
 }
 
 }  // namespace

@@ -64,6 +64,16 @@ TEST(RadialMesh, RefusesRadiiThatMakeNoRings) {
   options = {};
   options.growth = 0.0;
   EXPECT_THROW(circle_radii(options), InvalidInput);
+  options = {};
+  options.rings = 100;
+  options.growth = 1e6;  // the first rings are narrower than the numbers are spaced
+  EXPECT_THROW(circle_radii(options), InvalidInput);
+  options = {};
+  options.rings = 101;
+  EXPECT_THROW(circle_radii(options), InvalidInput);
+  options = {};
+  options.segments = 0;
+  EXPECT_THROW(circle_radii(options), InvalidInput);
 }
 
 /// Largest distance of the points from the plane and the circle of their first three.

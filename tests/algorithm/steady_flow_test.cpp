@@ -242,6 +242,14 @@ TEST(SteadyFlow, RefusesWhatMakesNoProblem) {
   for (std::size_t f = 0; f < boxes.faces.size(); ++f)
     if (boxes.faces.cells[FaceId(f)][1].is_valid()) what.faces = {{FaceId(f), bar}};
   EXPECT_NE(message_of(boxes, what).find("between two cells"), std::string::npos);
+  for (std::size_t f = 0; f < boxes.faces.size(); ++f)
+    if (!boxes.faces.cells[FaceId(f)][1].is_valid()) what.faces = {{FaceId(f), std::nan("")}};
+  EXPECT_NE(message_of(boxes, what).find("is not finite"), std::string::npos);
+  what = problem({rate(std::nan(""))});
+  EXPECT_EQ(message_of(mesh, what), "well empty: its pressure or rate is not finite");
+  what = problem({shut()});
+  what.density = std::nan("");
+  EXPECT_EQ(message_of(mesh, what), "the density and the expansion must be finite numbers");
 }
 
 TEST(SteadyFlow, DirectAndMultigridAgree) {

@@ -79,6 +79,7 @@ static void builds(const char* grid, const char* trajectory, const char* out) {
   EXPECT(strcmp(wellknit_well_name(model, 1), "straight") == 0);
   EXPECT(wellknit_well_name(model, 2) == NULL);
   EXPECT(strcmp(wellknit_well_reason(model, 0), "") == 0);
+  EXPECT(wellknit_array(model, "cells/colour", &volume) == WELLKNIT_FAILED && error_has("the mesh has no array cells/colour"));
   REQUIRE(wellknit_array(model, "cells/volume", &volume) == WELLKNIT_OK);
   EXPECT(volume.type == WELLKNIT_FLOAT64 && volume.columns == 1 && sum_of(&volume) > 0.0);
   REQUIRE(wellknit_array(model, "connections/cells", &cells) == WELLKNIT_OK);

@@ -98,6 +98,24 @@ class Python(unittest.TestCase):
                            (lambda: wellknit.build(grid, [wellknit.Well(EXAMPLE / "curved.csv", sectors=2)]), "sectors")):
             with self.subTest(text=text), self.assertRaisesRegex(wellknit.Error, text):
                 call()
+        well = lambda **keys: wellknit.build(grid, [wellknit.Well(EXAMPLE / "curved.csv", **keys)])
+        path = lambda points, **keys: wellknit.build(grid, [wellknit.Well(name="P", points=points, **keys)])
+        for call, text in ((lambda: well(bore_radius=5.0, radius=2.0), "expected a bore radius above 0 and a drainage radius above it"),
+                           (lambda: well(rings=5000), "rings: expected 1 to 1000, found 5000"),
+                           (lambda: well(segments=-1), "segments: expected 1 to 1000000, found -1"),
+                           (lambda: well(skin=float("nan")), "skin: expected a number"),
+                           (lambda: wellknit.build(grid, threads=-1), "threads: expected a whole number from 0 to "),
+                           (lambda: wellknit.build(grid, [EXAMPLE / "curved.csv"] * 2), "two wells are named curved; give one of them another name"),
+                           (lambda: path([[1, 2, 3]]), "well P: expected 2 points or more, found 1"),
+                           (lambda: path([[1, 2, 3], [1, 2, float("nan")]]), "well P: point 1 has a value that is not a number"),
+                           (lambda: path([[1, 2, 3], [1, 2, 9]], measured_depth=[5, 4]), "well P: measured depth 4 at point 1 is not above the one before"),
+                           (lambda: well(sectors=2), "sectors: expected 3 to 360, found 2"),
+                           (lambda: self.mesh.write("x.unknown"), "x.unknown: its extension is none of those in `wellknit formats`"),
+                           (lambda: self.mesh.write("x.h5", format="stl"), "no format stl; `wellknit formats` names them"),
+                           (lambda: wellknit.build(grid, colour="red"), "expected the option mapping, refine, fault-policy, heal-throw, fluxes or threads, found colour")):
+            with self.subTest(text=text), self.assertRaises(wellknit.Error) as caught:
+                call()
+            self.assertIn(text, str(caught.exception))
         with self.assertRaises(TypeError):
             wellknit.build(42)
 

@@ -163,6 +163,16 @@ std::vector<Broken> broken_records() {
        "geometry"},
       {"INIT with arrays of another length", ecl::inte("INTEHEAD", init_head()) + ecl::real("PORO", {0.2F}),
        ": PORO: expected 2 values (active cells) or 2 (all cells), found 1 at byte 432; the file is damaged"},
+      {"GRIDUNIT without a text", heads + ecl::text("GRIDUNIT", {}),
+       ": GRIDUNIT: expected METRES, FEET or CM, found no text at byte 864"},
+      {"GRIDUNIT of numbers", heads + ecl::inte("GRIDUNIT", {1}),
+       ": GRIDUNIT: expected texts (CHAR), found numbers at byte 864; the file is damaged, or of another kind"},
+      {"ACTNUM with a fraction", whole + ecl::real("ACTNUM", {1.0F, 0.5F}),
+       ": ACTNUM: expected integers, found a number with a fraction at byte 1136"},
+      {"X231 of another array", heads + ecl::header("COORD", -1, "X231") + ecl::header("ZCORN", 1, "REAL"),
+       ": COORD: expected X231 and the same name again, found 'ZCORN' at byte 864; the file is damaged"},
+      {"a second INTEHEAD", ecl::inte("INTEHEAD", init_head()) + ecl::inte("INTEHEAD", init_head()),
+       ": INTEHEAD: expected one INTEHEAD, found a second one at byte 432; is this a restart file? give CASE.INIT"},
       {"INIT in PVT-M", ecl::inte("INTEHEAD", with(init_head(), 2, 4)),
        ": INTEHEAD: expected METRIC, FIELD or LAB (1, 2 or 3 as item 3), found 4 at byte 0; the unit system PVT-M is "
        "not "
@@ -268,6 +278,14 @@ std::vector<Broken> broken_roff() {
       {"a region with a fraction",
        replaced(replaced(rock, "array byte data 18", "array float data 18"), "1 1 1 2 2 2", "1 1 1 2.5 2 2"),
        ":42: parameter.data: expected integers, found '2.5'; the file is damaged"},
+      {"a scale beyond all numbers", replaced(text, "float zscale -1.0", "float zscale 1e308"),
+       ":33: cornerLines.data: expected coordinates that are finite when moved and scaled, found one that overflows; "
+       "the "
+       "file is damaged"},
+      {"texts for depths", replaced(text, "array float data 105", "array char data 105"),
+       ":57: zvalues.data: expected numbers, found texts (char); the file is damaged, or of another kind"},
+      {"a number for the file's kind", replaced(text, "char filetype \"grid\"", "int filetype 1"),
+       ":6: filedata.filetype: expected a text (char), found numbers; the file is damaged, or of another kind"},
       {"a scale of nothing", replaced(text, "float zscale -1.0", "float zscale 0"),
        ":26: scale.zscale: expected a scale that is not 0, found 0; the file is damaged"},
   };
