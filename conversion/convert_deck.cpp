@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -73,12 +74,14 @@ class DeckConverter {
     write_includes();
     write_grid();
     write_file(place_.file, edits_.text_of(0));
+    note_small_cells();
     for (std::string& note : grid_.notes()) report_.notes.push_back(std::move(note));
     return std::move(report_);
   }
 
  private:
   void note_wells(const DeckConversion& conversion);
+  void note_small_cells();
   void convert_flags();
   void replace_grid(const std::string& aquifers);
   [[nodiscard]] bool keeps_any(std::size_t file) const;
@@ -112,6 +115,27 @@ void DeckConverter::note_wells(const DeckConversion& conversion) {
   for (const ScheduleWell& well : wells_.all())
     if (well.is_meshed && well.completed.empty() && !well.has_trajectory)
       report_.notes.push_back(fmt::format("well {} has a mesh, but the deck completes it nowhere", well.name));
+}
+
+/// Where gas comes out of solution, a cell whose pores the flow replaces many times a step makes Newton's method fail
+/// (docs/validation_decks.md).
+void DeckConverter::note_small_cells() {
+  constexpr double small = 1e-5;
+  double least = std::numeric_limits<double>::infinity();
+  double host = 0.0;
+  std::int64_t hosts = 0;
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    const double pores = mesh_.cells.pore_volume[CellId(c)];
+    if (mesh_.cells.kind[CellId(c)] == CellKind::radial && pores > 0.0) least = std::min(least, pores);
+    if (mesh_.cells.kind[CellId(c)] != CellKind::host) continue;
+    host += pores;
+    ++hosts;
+  }
+  if (hosts == 0 || !(least < small * host / static_cast<double>(hosts))) return;
+  report_.notes.push_back(fmt::format(
+      "the least pore volume of a cell at a bore is {:.2g} m3, {:.1g} of the host's mean: where gas comes "
+      "out of solution, steps may get very short; more even rings (--growth 1.2), fewer rings or sectors help",
+      least, least * static_cast<double>(hosts) / host));
 }
 
 void DeckConverter::convert_flags() {

@@ -77,6 +77,7 @@ wellknit::WellOptions options_of(const wellknit_well_options* given_options) {
   out.radial.bore_radius = given_options->bore_radius;
   out.radial.sectors = given_options->sectors;
   out.radial.rings = given_options->rings;
+  if (given_options->growth != 0.0) out.radial.growth = given_options->growth;
   if (given_options->segments != 0) out.radial.segments = given_options->segments;
   switch (given_options->mode) {
     case 0: out.radial.mode = wellknit::MeshMode::automatic; break;
@@ -108,7 +109,7 @@ const char* wellknit_last_error(void) { return last_error().c_str(); }
 
 wellknit_well_options wellknit_well_defaults(void) {
   const wellknit::RadialOptions radial;
-  return {radial.drainage_radius, radial.bore_radius, 0.0, radial.sectors, radial.rings, 0, 0};
+  return {radial.drainage_radius, radial.bore_radius, 0.0, 0.0, radial.sectors, radial.rings, 0, 0};
 }
 
 wellknit_request* wellknit_open_case(const char* path) {

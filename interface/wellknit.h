@@ -39,6 +39,7 @@ typedef struct {
   double drainage_radius; /* m, of the outermost ring */
   double bore_radius;     /* m */
   double skin;
+  double growth;    /* ratio of successive ring widths; 0: radii in geometric progression */
   int32_t sectors;  /* 3 or more */
   int32_t rings;    /* 1 or more */
   int32_t segments; /* cells along a swept well; 0: chosen */

@@ -22,7 +22,7 @@ class Well:
     def __init__(self, file: Optional[Union[str, "os.PathLike[str]"]] = None, *, name: str = "", points: Optional[npt.ArrayLike] = None,
                  measured_depth: Optional[npt.ArrayLike] = None, radius: float = 15.0, bore_radius: float = 0.1, sectors: int = 10,
                  rings: int = 5, segments: Optional[int] = None, mode: Literal["auto", "layered", "swept"] = "auto",
-                 skin: float = 0.0) -> None: ...
+                 skin: float = 0.0, growth: Optional[float] = None) -> None: ...
 
 class Mesh:
     """A mesh in memory: a read-only mapping of names to arrays, which keep it alive."""

@@ -39,7 +39,8 @@ std::string path_of(const py::object& path) { return py::str(py::module_::import
 
 WellGiven make_well(const py::object& file, const std::string& name, const std::optional<Points>& points,
                     const std::optional<Points>& measured_depth, double radius, double bore_radius, int sectors,
-                    int rings, std::optional<int> segments, const std::string& mode, double skin) {
+                    int rings, std::optional<int> segments, const std::string& mode, double skin,
+                    std::optional<double> growth) {
   WellGiven out;
   if (!file.is_none() && points) throw InvalidInput("Well: give either a file, or a name and points");
   if (!file.is_none()) {
@@ -62,6 +63,7 @@ WellGiven make_well(const py::object& file, const std::string& name, const std::
   out.options.radial.segments = segments;
   out.options.radial.mode = mesh_mode_named(mode);
   out.options.skin = skin;
+  out.options.radial.growth = growth;
   return out;
 }
 
@@ -170,7 +172,7 @@ PYBIND11_MODULE(wellknit, module) {
            py::arg("points") = py::none(), py::arg("measured_depth") = py::none(),
            py::arg("radius") = radial.drainage_radius, py::arg("bore_radius") = radial.bore_radius,
            py::arg("sectors") = radial.sectors, py::arg("rings") = radial.rings, py::arg("segments") = py::none(),
-           py::arg("mode") = "auto", py::arg("skin") = 0.0);
+           py::arg("mode") = "auto", py::arg("skin") = 0.0, py::arg("growth") = py::none());
 
   py::class_<Model, std::shared_ptr<Model>>(module, "Mesh")
       .def("__getitem__", &array_of, py::arg("name"))

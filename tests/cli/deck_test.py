@@ -158,6 +158,11 @@ class Deck(unittest.TestCase):
             self.assertAlmostEqual(resistance[0] - resistance[1], 2.0, delta=1e-6)
         self.assertIn("-- dropped", text)  # BPR and COFR of (5,5,2)
 
+    def test_small_cells_at_the_bore_are_named(self):
+        words = "steps may get very short; more even rings (--growth 1.2), fewer rings or sectors help"
+        self.assertIn(words, str(self.convert("--deck-wells", "P1", "--rings", "8")[1]))
+        self.assertNotIn(words, str(self.convert("--deck-wells", "P1", "--growth", "1.2")[1]))
+
     def test_the_pore_volume_of_the_aquifer_and_of_regions(self):
         text, report = self.convert("--deck-wells", "P1")
         rows = keyword(text, "AQUANCON")[0]

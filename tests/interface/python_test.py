@@ -89,6 +89,11 @@ class Python(unittest.TestCase):
         with self.assertRaisesRegex(wellknit.Error, "extension"):
             self.mesh.write(folder / "out.unknown")
 
+    def test_growth_of_the_rings(self):
+        even = wellknit.build(EXAMPLE / "example.GRDECL", [wellknit.Well(EXAMPLE / "steep.dev", growth=1.0)])
+        smallest = lambda mesh: mesh["cells/volume"][mesh["cells/kind"] == 3].min()
+        self.assertGreater(smallest(even), 50 * smallest(self.mesh))
+
     def test_what_is_wrong_is_said(self):
         grid = EXAMPLE / "example.GRDECL"
         for call, text in ((lambda: wellknit.build("nowhere.GRDECL"), "nowhere.GRDECL"), (lambda: wellknit.read(grid), "example.GRDECL"),
