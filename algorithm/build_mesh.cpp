@@ -80,6 +80,10 @@ class Builder {
     locator_ = std::make_unique<CellLocator>(grid_);
     clock_.lap("host grid");
     Assembly assembly = knit();
+    if (options_.is_optimised() && !cavities_.empty()) {
+      result_.summary.optimisation = optimise_mesh(assembly.mesh);
+      clock_.lap("optimisation");
+    }
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
     note_missing_properties();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/optimise_mesh.h"
 #include "model/case.h"
 #include "model/grid_validity.h"
 #include "model/mesh.h"
@@ -40,6 +41,11 @@ struct BuildOptions {
   FaultPolicy fault_policy = FaultPolicy::stop;
   std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
   Fluxes fluxes = Fluxes::two_point;
+  /// Whether inner vertices and centres of transition cells are moved (optimise_mesh.h); unset: not with the paper's
+  /// mapping.
+  std::optional<bool> optimise;
+
+  [[nodiscard]] bool is_optimised() const { return optimise.value_or(mapping == MappingMethod::automatic); }
 };
 
 /// A radial mesh along a stretch of a well.
@@ -98,7 +104,8 @@ struct StepTime {
 struct BuildSummary {
   std::vector<WellSummary> wells;  ///< in the order given
   std::vector<CavitySummary> cavities;
-  GridValidity validity;  ///< of the host
+  std::optional<MeshOptimisation> optimisation;  ///< unset: not asked for, or there are no transition cells
+  GridValidity validity;                         ///< of the host
   std::vector<StepTime> times;
   std::vector<std::string> notes;
 };

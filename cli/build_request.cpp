@@ -116,6 +116,14 @@ int refinement_levels(const std::string& text) {
   return levels;
 }
 
+/// Nothing: automatic.
+std::optional<bool> optimisation(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  if (text == "on") return true;
+  if (text == "off") return false;
+  throw UsageError(fmt::format("expected auto, on or off, found '{}'", text));
+}
+
 bool is_true(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
@@ -213,6 +221,9 @@ constexpr std::array options{
                 [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
+    BuildOption{"optimise", "auto|on|off",
+                "Moving of inner vertices and centres for orthogonality [auto: on but with --mapping paper]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.optimise = optimisation(v); }},
     BuildOption{"fluxes", "two-point|consistent",
                 "Fluxes of the mesh file: two-point, or multi-point ones beside them [two-point]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},
@@ -393,6 +404,7 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   take(out.fault_policy, fallback.fault_policy);
   take(out.heal_throw, fallback.heal_throw);
   take(out.fluxes, fallback.fluxes);
+  take(out.optimise, fallback.optimise);
   take(out.writes, fallback.writes);
   take(out.output, fallback.output);
   take(out.report, fallback.report);
@@ -446,6 +458,7 @@ std::string config_text(const BuildRequest& request) {
   table.insert("fault-policy", name_of(request.fault_policy.value_or(FaultPolicy::stop)));
   insert(table, "heal-throw", request.heal_throw);
   table.insert("metric", "geometric");
+  if (request.optimise) table.insert("optimise", *request.optimise ? "on" : "off");
   if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);
   if (levels > 0)

@@ -297,7 +297,8 @@ int build(const GivenRequest& given) {
                              request.refinement_levels.value_or(-1),
                              request.fault_policy.value_or(FaultPolicy::stop),
                              request.heal_throw,
-                             request.fluxes.value_or(Fluxes::two_point)};
+                             request.fluxes.value_or(Fluxes::two_point),
+                             request.optimise};
   progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);

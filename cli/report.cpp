@@ -110,6 +110,17 @@ void write_cavities(Text out, const BuildReport& report) {
                  grouped(found), counted(faces, "cavity face"), counted(unseen, "cell"));
 }
 
+void write_optimisation(Text out, const BuildSummary& build) {
+  if (!build.optimisation) return;
+  const MeshOptimisation& o = *build.optimisation;
+  fmt::format_to(out,
+                 "optimised   non-orthogonality of inner faces {:.1f} to {:.1f} degrees (99 % below {:.1f}, {:.1f}), "
+                 "of joints {:.1f} to "
+                 "{:.1f} ({:.1f}, {:.1f})\n",
+                 o.inner_before.mean, o.inner_after.mean, o.inner_before.p99, o.inner_after.p99, o.joint_before.mean,
+                 o.joint_after.mean, o.joint_before.p99, o.joint_after.p99);
+}
+
 void write_quality(Text out, const QualityReport& quality) {
   fmt::format_to(out, "quality           faces   non-orthogonality  K-non-orthogonality            planarity\n");
   fmt::format_to(out, "  mean, max                           degrees              degrees\n");
@@ -169,6 +180,21 @@ Json json_of(const WellSummary& well) {
   for (const TubeSummary& tube : well.tubes) json["tubes"].push_back(json_of(tube));
   json["notes"] = well.notes;
   return json;
+}
+
+Json json_of(const AngleFigures& figures) {
+  return {{"mean_deg", figures.mean}, {"p99_deg", figures.p99}, {"max_deg", figures.largest}};
+}
+
+Json json_of(const MeshOptimisation& o) {
+  return {{"cells", o.cells},
+          {"vertices", o.vertices},
+          {"iterations", o.iterations},
+          {"cells_restored", o.restored},
+          {"inner_before", json_of(o.inner_before)},
+          {"inner_after", json_of(o.inner_after)},
+          {"joints_before", json_of(o.joint_before)},
+          {"joints_after", json_of(o.joint_after)}};
 }
 
 Json json_of(const CavitySummary& cavity) {
@@ -232,6 +258,7 @@ std::string to_text(const BuildReport& report) {
                  report.dimensions[1], report.dimensions[2]);
   write_wells(out, report);
   write_cavities(out, report);
+  write_optimisation(out, report.build);
   write_mesh(out, report);
   write_quality(out, report.quality);
   for (const std::string& line : to_lines(report.build.validity)) fmt::format_to(out, "grid        {}\n", line);
@@ -252,6 +279,7 @@ std::string to_json(const BuildReport& report) {
   for (const WellSummary& well : report.build.wells) json["wells"].push_back(json_of(well));
   json["cavities"] = Json::array();
   for (const CavitySummary& cavity : report.build.cavities) json["cavities"].push_back(json_of(cavity));
+  if (report.build.optimisation) json["optimisation"] = json_of(*report.build.optimisation);
   json["pore_volume"] = report.pore_volume;
   json["quality"] = Json::parse(report.quality.to_json());
   json["validity"] = Json::parse(to_json(report.build.validity));

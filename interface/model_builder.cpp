@@ -151,12 +151,16 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
       {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
   static constexpr std::array<std::pair<std::string_view, Fluxes>, 2> fluxes{
       {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
+  static constexpr std::array<std::pair<std::string_view, std::optional<bool>>, 3> optimisations{
+      {{"auto", std::nullopt}, {"on", true}, {"off", false}}};
   if (option == "mapping")
     options_.mapping = chosen(option, value, mappings);
   else if (option == "fault-policy")
     options_.fault_policy = chosen(option, value, policies);
   else if (option == "fluxes")
     options_.fluxes = chosen(option, value, fluxes);
+  else if (option == "optimise")
+    options_.optimise = chosen(option, value, optimisations);
   else if (option == "refine")
     options_.refinement_levels = value == "auto" ? -1 : value == "off" ? 0 : count(option, value, most_levels);
   else if (option == "heal-throw")
@@ -165,7 +169,8 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
     options_.threads = count(option, value, most_threads);
   else
     throw InvalidInput(fmt::format(
-        "expected the option mapping, refine, fault-policy, heal-throw, fluxes or threads, found {}", option));
+        "expected the option mapping, optimise, refine, fault-policy, heal-throw, fluxes or threads, found {}",
+        option));
 }
 
 std::unique_ptr<Model> ModelBuilder::build() const {
