@@ -80,7 +80,7 @@ class Builder {
     locator_ = std::make_unique<CellLocator>(grid_);
     clock_.lap("host grid");
     Assembly assembly = knit();
-    if (options_.is_optimised() && !cavities_.empty()) {
+    if (options_.optimise && !cavities_.empty()) {
       result_.summary.optimisation = optimise_mesh(assembly.mesh);
       clock_.lap("optimisation");
     }

@@ -41,11 +41,7 @@ struct BuildOptions {
   FaultPolicy fault_policy = FaultPolicy::stop;
   std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
   Fluxes fluxes = Fluxes::two_point;
-  /// Whether inner vertices and centres of transition cells are moved (optimise_mesh.h); unset: not with the paper's
-  /// mapping.
-  std::optional<bool> optimise;
-
-  [[nodiscard]] bool is_optimised() const { return optimise.value_or(mapping == MappingMethod::automatic); }
+  bool optimise = false;  ///< inner vertices and centres of transition cells are moved (optimise_mesh.h)
 };
 
 /// A radial mesh along a stretch of a well.

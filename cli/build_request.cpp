@@ -116,12 +116,10 @@ int refinement_levels(const std::string& text) {
   return levels;
 }
 
-/// Nothing: automatic.
-std::optional<bool> optimisation(const std::string& text) {
-  if (text == "auto") return std::nullopt;
+bool is_on(const std::string& text) {
   if (text == "on") return true;
   if (text == "off") return false;
-  throw UsageError(fmt::format("expected auto, on or off, found '{}'", text));
+  throw UsageError(fmt::format("expected on or off, found '{}'", text));
 }
 
 bool is_true(const std::string& text) {
@@ -221,9 +219,8 @@ constexpr std::array options{
                 [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
-    BuildOption{"optimise", "auto|on|off",
-                "Moving of inner vertices and centres for orthogonality [auto: on but with --mapping paper]",
-                Kind::value, [](BuildRequest& r, const std::string& v) { r.optimise = optimisation(v); }},
+    BuildOption{"optimise", "on|off", "Moving of inner vertices and centres for orthogonality [off]", Kind::value,
+                [](BuildRequest& r, const std::string& v) { r.optimise = is_on(v); }},
     BuildOption{"fluxes", "two-point|consistent",
                 "Fluxes of the mesh file: two-point, or multi-point ones beside them [two-point]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},

@@ -70,7 +70,7 @@ struct BuildRequest {
   std::optional<FaultPolicy> fault_policy;
   std::optional<double> heal_throw;  ///< m
   std::optional<Fluxes> fluxes;
-  std::optional<bool> optimise;  ///< unset: automatic
+  std::optional<bool> optimise;
   std::vector<OutputRequest> writes;
   std::optional<std::string> output;
   std::optional<std::string> report;  ///< the quality report, a page

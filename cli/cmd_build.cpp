@@ -298,7 +298,7 @@ int build(const GivenRequest& given) {
                              request.fault_policy.value_or(FaultPolicy::stop),
                              request.heal_throw,
                              request.fluxes.value_or(Fluxes::two_point),
-                             request.optimise};
+                             request.optimise.value_or(false)};
   progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);

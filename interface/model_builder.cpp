@@ -151,8 +151,7 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
       {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
   static constexpr std::array<std::pair<std::string_view, Fluxes>, 2> fluxes{
       {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
-  static constexpr std::array<std::pair<std::string_view, std::optional<bool>>, 3> optimisations{
-      {{"auto", std::nullopt}, {"on", true}, {"off", false}}};
+  static constexpr std::array<std::pair<std::string_view, bool>, 2> switches{{{"on", true}, {"off", false}}};
   if (option == "mapping")
     options_.mapping = chosen(option, value, mappings);
   else if (option == "fault-policy")
@@ -160,7 +159,7 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
   else if (option == "fluxes")
     options_.fluxes = chosen(option, value, fluxes);
   else if (option == "optimise")
-    options_.optimise = chosen(option, value, optimisations);
+    options_.optimise = chosen(option, value, switches);
   else if (option == "refine")
     options_.refinement_levels = value == "auto" ? -1 : value == "off" ? 0 : count(option, value, most_levels);
   else if (option == "heal-throw")

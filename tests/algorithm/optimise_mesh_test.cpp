@@ -55,7 +55,7 @@ TEST(QuasiNewton, NeverClimbs) {
   EXPECT_EQ(result.after, 9.0);
 }
 
-BuildResult built(double deformation, Path path, std::optional<bool> optimise, int threads = 0) {
+BuildResult built(double deformation, Path path, bool optimise, int threads = 0) {
   BuildOptions options;
   options.optimise = optimise;
   options.threads = threads;
@@ -65,7 +65,7 @@ BuildResult built(double deformation, Path path, std::optional<bool> optimise, i
 TEST(OptimiseMesh, TurnsFacesTowardsTheLinesOfTheCentres) {
   for (const Path path : {Path::vertical, Path::deviated, Path::curved, Path::horizontal}) {
     if (has_few_rounds && path != Path::curved) continue;
-    const BuildResult result = built(1.0, path, std::nullopt);
+    const BuildResult result = built(1.0, path, true);
     ASSERT_TRUE(result.summary.optimisation);
     const MeshOptimisation& o = *result.summary.optimisation;
     EXPECT_GT(o.cells, 0);
@@ -127,14 +127,6 @@ TEST(OptimiseMesh, DoesNotDependOnThreads) {
   const Mesh two = built(1.0, Path::curved, true, 2).mesh;
   EXPECT_EQ(one.vertices.raw(), two.vertices.raw());
   EXPECT_EQ(one.cells.center.raw(), two.cells.center.raw());
-}
-
-TEST(OptimiseMesh, IsNotAPartOfThePapersMethod) {
-  BuildOptions options;
-  options.mapping = MappingMethod::paper;
-  EXPECT_FALSE(options.is_optimised());
-  options.optimise = true;
-  EXPECT_TRUE(options.is_optimised());
 }
 
 /// The same mesh from a worse start: with weights that forbid nothing cells may not be lost all the same.
