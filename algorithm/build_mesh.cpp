@@ -17,11 +17,13 @@
 #include "algorithm/flow_connections.h"
 #include "algorithm/heal_faults.h"
 #include "algorithm/host_validity.h"
+#include "algorithm/metric_space.h"
 #include "algorithm/property_transfer.h"
 #include "algorithm/source_pore_volume.h"
 #include "algorithm/well_connections.h"
 #include "algorithm/well_mesher.h"
 #include "algorithm/well_path.h"
+#include "algorithm/well_sample.h"
 #include "model/errors.h"
 
 namespace wellknit {
@@ -70,6 +72,8 @@ class Builder {
   Builder(const CornerPointGrid& grid, const std::vector<Well>& wells, const BuildOptions& options)
       : grid_(grid), given_(wells), wells_(wells), options_(options), clock_(result_.summary.times) {
     for (Well& w : wells_) take_effective_radius(w);
+    mesh_grid_ = &grid_;
+    mesh_wells_ = &wells_;
   }
 
   BuildResult build() {
@@ -78,12 +82,14 @@ class Builder {
     result_.summary.notes = host_.notes;
     result_.summary.validity = check_host_validity(grid_, host_);
     locator_ = std::make_unique<CellLocator>(grid_);
+    if (options_.metric == Metric::permeability && !wells_.empty()) move_to_metric_space();
     clock_.lap("host grid");
     Assembly assembly = knit();
     if (options_.optimise && !cavities_.empty()) {
       result_.summary.optimisation = optimise_mesh(assembly.mesh);
       clock_.lap("optimisation");
     }
+    if (mesh_grid_ != &grid_) move_back(assembly);
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
     note_missing_properties();
@@ -120,6 +126,38 @@ class Builder {
     well.skin = 0.0;
   }
 
+  /// The permeability metric: the mesh is made in a moved grid, around moved wells.
+  void move_to_metric_space() {
+    // Says in real coordinates which well misses the grid.
+    for (const Well& w : wells_) (void)sample_well(grid_, host_, *locator_, w);
+    const AffineMap space = metric_space(grid_, host_, *locator_, wells_);
+    result_.summary.metric_space = space;
+    if (space.is_identity()) return;
+    moved_grid_ = std::make_unique<CornerPointGrid>(moved(space, grid_));
+    for (const Well& w : wells_) moved_wells_.push_back(moved(space, grid_, w));
+    mesh_grid_ = moved_grid_.get();
+    mesh_wells_ = &moved_wells_;
+    host_ = build_host_mesh(*mesh_grid_);
+    locator_ = std::make_unique<CellLocator>(*mesh_grid_);
+    result_.summary.notes.push_back(fmt::format(
+        "the mesh was made in a space where the permeability along the wells is the same in all directions, "
+        "with depths times {:.3g}: drainage radii are horizontal ones, and distances in the notes on wells "
+        "are those of that space",
+        space.matrix(2, 2)));
+  }
+
+  /// Everything back in the real space; properties and transmissibilities are computed there.
+  void move_back(Assembly& assembly) {
+    const AffineMap& space = *result_.summary.metric_space;
+    wellknit::move_back(space, grid_, host_);
+    wellknit::move_back(space, assembly);
+    for (TransitionMesh& c : cavities_)
+      for (Tube& t : c.cavity.tubes) wellknit::move_back(moved_wells_[t.well], t);
+    locator_ = std::make_unique<CellLocator>(grid_);
+    moved_grid_.reset();
+    clock_.lap("assembly");
+  }
+
   /// The whole mesh. Where cells do not close, which no case is known to do, the wells beside them are left out and
   /// all is done again: a mesh that is not sound is never given.
   Assembly knit() {
@@ -129,11 +167,11 @@ class Builder {
       clock_.lap("near-well mesh");
       refine();
       clock_.lap("refinement");
-      Assembly assembly = assemble(grid_, host_, cavities_);
+      Assembly assembly = assemble(*mesh_grid_, host_, cavities_);
       clock_.lap("assembly");
       if (assembly.unsound_cells.empty()) return assembly;
       for (const CellId cell : assembly.unsound_cells) leave_out_beside(assembly.mesh.cells.center[cell], left_out);
-      host_ = build_host_mesh(grid_);
+      host_ = build_host_mesh(*mesh_grid_);
       clock_.lap("host grid");
     }
   }
@@ -141,7 +179,7 @@ class Builder {
   void make_cavities(const std::map<std::size_t, std::string>& left_out) {
     cavities_.clear();
     near_well_grids_.clear();
-    MeshedWells meshed = mesh_wells(grid_, host_, *locator_, wells_, options_, left_out);
+    MeshedWells meshed = mesh_wells(*mesh_grid_, host_, *locator_, *mesh_wells_, options_, left_out);
     result_.summary.wells = std::move(meshed.wells);
     plan_ = std::move(meshed.plan);
     for (MeshedCavity& c : meshed.cavities) {
@@ -160,16 +198,18 @@ class Builder {
           least = d;
           nearest = &c;
         }
-    for (const Tube& t : nearest->cavity.tubes)
+    for (const Tube& t : nearest->cavity.tubes) {
+      const Vec3 p = t.space.from(point);
       left_out.emplace(t.well,
                        fmt::format("the mesh around it would not close at ({:.1f}, {:.1f}, {:.1f}); please send "
                                    "this case to the authors",
-                                   point.x(), point.y(), point.z()));
+                                   p.x(), p.y(), p.z()));
+    }
   }
 
   /// Splits the columns that the cavities ask for, and gives the cavities their places in the split host.
   void refine() {
-    if (!plan_.empty()) refine_host(grid_, plan_, host_);
+    if (!plan_.empty()) refine_host(*mesh_grid_, plan_, host_);
     for (std::size_t c = 0; c < cavities_.size(); ++c) {
       Cavity& cavity = cavities_[c].cavity;
       bind_to_host(*near_well_grids_[c], plan_, cavity);
@@ -299,6 +339,11 @@ class Builder {
   const CornerPointGrid& grid_;
   const std::vector<Well>& given_;
   std::vector<Well> wells_;  ///< as given; stimulated ones with their effective bores
+  // What the mesh is made in: the two above, or these.
+  std::unique_ptr<CornerPointGrid> moved_grid_;
+  std::vector<Well> moved_wells_;
+  const CornerPointGrid* mesh_grid_ = nullptr;
+  const std::vector<Well>* mesh_wells_ = nullptr;
   BuildOptions options_;
   BuildResult result_;
   Clock clock_;

@@ -34,6 +34,12 @@ enum class Fluxes {
   consistent  ///< multi-point fluxes too (consistent_flux.h)
 };
 
+/// Of the space that the mesh is made in (method.md §4).
+enum class Metric {
+  geometric,    ///< the real one
+  permeability  ///< one where the permeability along the wells is isotropic (metric_space.h)
+};
+
 struct BuildOptions {
   MappingMethod mapping = MappingMethod::automatic;
   int threads = 0;             ///< 0: as many as the machine has; the result does not depend on it
@@ -42,6 +48,7 @@ struct BuildOptions {
   std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
   Fluxes fluxes = Fluxes::two_point;
   bool optimise = false;  ///< inner vertices and centres of transition cells are moved (optimise_mesh.h)
+  Metric metric = Metric::geometric;
 };
 
 /// A radial mesh along a stretch of a well.
@@ -101,6 +108,7 @@ struct BuildSummary {
   std::vector<WellSummary> wells;  ///< in the order given
   std::vector<CavitySummary> cavities;
   std::optional<MeshOptimisation> optimisation;  ///< unset: not asked for, or there are no transition cells
+  std::optional<AffineMap> metric_space;         ///< of the permeability metric; unset: the geometric one
   GridValidity validity;                         ///< of the host
   std::vector<StepTime> times;
   std::vector<std::string> notes;

@@ -64,6 +64,7 @@ class Connector {
         multipliers_(input.multipliers),
         assembly_(assembly),
         mesh_(assembly.mesh),
+        wells_(input.wells),
         radial_flow_(assembly.tubes, input.wells) {
     tensors_.resize(mesh_.cells.size());
     tbb::parallel_for(std::size_t{0}, tensors_.size(),
@@ -304,14 +305,16 @@ class Connector {
     const auto [a, b] = h.cells;
     const CellId radial = a == h.cell ? b : a;
     const RadialIndex at = mesh_.cells.radial_index[radial];
-    return TubeSector(*tube_of(radial).tube, at.segment, at.sector, k)
-        .half_beyond(std::abs(h.area_vector.normalized().dot(d)));
+    const Tube& tube = *tube_of(radial).tube;
+    return TubeSector(tube, at.segment, at.sector, k, bore_radius(tube)).half_beyond(h.area_vector, d);
   }
 
   /// Beside a transition cell; host cells see host faces only.
   [[nodiscard]] double host_half(const HalfFace& h) const {
     return host_half_transmissibility(grid_, host_, assembly_.host_cell[h.cell.index()], h.info.axis, h.area_vector);
   }
+
+  [[nodiscard]] double bore_radius(const Tube& tube) const { return wells_[tube.well].radial.bore_radius; }
 
   [[nodiscard]] const PlacedTube& tube_of(CellId cell) const {
     std::size_t t = 0;
@@ -324,11 +327,12 @@ class Connector {
     const RadialIndex at = mesh_.cells.radial_index[h.cell];
     switch (h.info.role) {
       case FaceRole::ring:
-      case FaceRole::lateral: return TubeSector(tube, at.segment, at.sector, k).half_to_circle(at.ring, h.info.circle);
+      case FaceRole::lateral:
+        return TubeSector(tube, at.segment, at.sector, k, bore_radius(tube)).half_to_circle(at.ring, h.info.circle);
       case FaceRole::sector: {
         const CellId other = h.cells[0] == h.cell ? h.cells[1] : h.cells[0];
         const bool is_second = mesh_.cells.radial_index[other].sector == (at.sector + 1) % tube.real.sectors;
-        return TubeSector(tube, at.segment, at.sector, k).half_to_side(at.ring, is_second ? 1 : 0);
+        return TubeSector(tube, at.segment, at.sector, k, bore_radius(tube)).half_to_side(at.ring, is_second ? 1 : 0);
       }
       case FaceRole::axial: {
         const double distance = std::abs(h.area_vector.normalized().dot(d));
@@ -346,6 +350,7 @@ class Connector {
   const HostMultipliers& multipliers_;
   Assembly& assembly_;
   Mesh& mesh_;
+  const std::vector<Well>& wells_;
   RadialFlow radial_flow_;
   std::vector<Eigen::Matrix3d> tensors_;  ///< of all cells, along their own axes
   bool wants_defects_ = false;

@@ -67,6 +67,8 @@ RadialFlow::RadialFlow(const std::vector<PlacedTube>& tubes, const std::vector<W
 RadialFlow::Axis RadialFlow::axis_of(const Tube& tube, const Well& well) {
   std::vector<Vec3> points = tube.real.axis;
   const auto& depths = tube.real.measured_depth;
+  if (!tube.space.is_identity())
+    for (Vec3& p : points) p = tube.space.from(p);
   // What the well goes on, straight, as far as it matters to cells beside the tube.
   const double most = 4.0 * (tube.real.point(0, tube.real.rings, 0) - tube.real.axis[0]).norm();
   const Vec3 first = (points[0] - points[1]).normalized();
@@ -80,7 +82,8 @@ RadialFlow::Axis RadialFlow::axis_of(const Tube& tube, const Well& well) {
   if (const double more = is_downwards ? after : before; more > 0.0) points.push_back(points.back() + more * last);
   Axis out;
   out.tube = &tube;
-  out.bore_radius = (tube.real.point(0, 0, 0) - tube.real.axis[0]).norm();
+  out.bore_radius =
+      tube.space.is_identity() ? (tube.real.point(0, 0, 0) - tube.real.axis[0]).norm() : well.radial.bore_radius;
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
     if (k % run_length == 0) out.runs.emplace_back();
     for (const Vec3& p : {points[k], points[k + 1]}) {

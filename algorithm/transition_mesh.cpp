@@ -46,7 +46,8 @@ std::optional<BadCell> choose_centers(const std::vector<std::uint8_t>& is_fixed,
   mesh.summary.cells_merged = opening.merged;
   if (opening.moved > 0 || opening.merged > 0) faces = outward_faces(mesh);
   const auto bad = [&](const Vec3& at, const char* what) {
-    return BadCell{fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) {}", at.x(), at.y(), at.z(), what), at};
+    const Vec3 p = mesh.cavity.tubes.empty() ? at : mesh.cavity.tubes.front().space.from(at);
+    return BadCell{fmt::format("a transition cell near ({:.1f}, {:.1f}, {:.1f}) {}", p.x(), p.y(), p.z(), what), at};
   };
   for (std::size_t c = 0; c < mesh.centers.size(); ++c) {
     if (!(enclosed_volume(faces[c]) > 0.0)) return bad(mesh.centers[c], "is inside out after the mapping");

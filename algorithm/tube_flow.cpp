@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algorithm/metric_space.h"
 #include "algorithm/rock_tensor.h"
 
 namespace wellknit {
@@ -30,6 +31,14 @@ double circle_radius(const Tube& tube, int segment, int circle) {
   return tube.layered ? std::hypot(d.x(), d.y()) : d.norm();
 }
 
+/// Radius of the bore at a segment, m. In another space a round bore is an ellipse, and the rings begin at
+/// the largest of its mean radii.
+double bore_of(const Tube& tube, int segment, double bore_radius) {
+  if (tube.space.is_identity()) return circle_radius(tube, segment, 0);
+  return std::min(circle_radius(tube, segment, 0),
+                  moved_bore_radius(tube.space, tube.space.inverse * axis_of(tube.real, segment), bore_radius));
+}
+
 }  // namespace
 
 double mean_pressure_radius(double inner, double outer) {
@@ -38,13 +47,14 @@ double mean_pressure_radius(double inner, double outer) {
   return std::exp((b * std::log(outer) - a * std::log(inner)) / (b - a) - 0.5);
 }
 
-TubeSector::TubeSector(const Tube& tube, int segment, int sector, const Eigen::Matrix3d& k)
+TubeSector::TubeSector(const Tube& tube, int segment, int sector, const Eigen::Matrix3d& k, double bore_radius)
     : mesh_(tube.real),
+      space_(tube.space),
       layered_(tube.layered),
       segment_(segment),
       sector_(sector),
       section_(section_of(tube, segment)),
-      field_(section_.permeability(k), circle_radius(tube, segment, 0)) {
+      field_(section_.permeability(moved_permeability(tube.space, k)), bore_of(tube, segment, bore_radius)) {
   if (!conducts()) return;
   const auto station = static_cast<std::size_t>(segment);
   for (int side = 0; side < 2; ++side) {
@@ -89,8 +99,9 @@ double TubeSector::half_to_side(int ring, int side) const {
   return field_.conductance() * mean * std::log(outer / inner) * around / (around * around + along * along);
 }
 
-double TubeSector::half_beyond(double distance) const {
+double TubeSector::half_beyond(const Vec3& area_vector, const Vec3& offset) const {
   if (!conducts()) return 0.0;
+  const double distance = std::abs(moved_area(space_, area_vector).normalized().dot(space_.matrix * offset));
   const double r = radius(mesh_.rings);
   const double half_angle = 0.5 * std::acos(std::clamp(sides_[0].dot(sides_[1]), -1.0, 1.0));
   // The site stands off the chord. Very near the chord's middle it is inside the circle that the outermost ring's half
@@ -129,7 +140,9 @@ std::vector<WellConnection> connect_tube(const Assembly& assembly, const PlacedT
     if (part < 1e-6) continue;
     for (int s = 0; s < m.sectors; ++s) {
       const CellId cell = placed.cell(k, s, 0);
-      const double index = part * TubeSector(*placed.tube, k, s, rock_tensor(assembly, cell)).well_index(well.skin);
+      const double index =
+          part *
+          TubeSector(*placed.tube, k, s, rock_tensor(assembly, cell), well.radial.bore_radius).well_index(well.skin);
       if (index > 0.0) connections.push_back({cell, index, {md0, md1}});
     }
   }

@@ -16,11 +16,12 @@ namespace wellknit {
 /// ln r_0 = (r_2^2 ln r_2 - r_1^2 ln r_1) / (r_2^2 - r_1^2) - 1/2.
 double mean_pressure_radius(double inner, double outer);
 
-/// One segment and sector of a tube, seen with one permeability.
+/// One segment and sector of a tube, seen with one permeability. All lengths are those of the space that the tube was
+/// made in, which leaves half transmissibilities and indices as they are (metric_space.h).
 class TubeSector {
  public:
-  /// `k`: permeability tensor, m2, with net to gross.
-  TubeSector(const Tube& tube, int segment, int sector, const Eigen::Matrix3d& k);
+  /// `k`: permeability tensor in the real space, m2, with net to gross. `bore_radius`: of the round bore, m.
+  TubeSector(const Tube& tube, int segment, int sector, const Eigen::Matrix3d& k, double bore_radius);
 
   /// False: no flow across the bore.
   [[nodiscard]] bool conducts() const { return field_.conductance() > 0.0; }
@@ -29,8 +30,9 @@ class TubeSector {
   [[nodiscard]] double half_to_circle(int ring, int circle) const;
   /// From the middle of the cell of `ring` to the sector's first (0) or second (1) side.
   [[nodiscard]] double half_to_side(int ring, int side) const;
-  /// From the outermost circle to a transition cell whose centre is at `distance`, m, from the face's plane.
-  [[nodiscard]] double half_beyond(double distance) const;
+  /// From the outermost circle to a transition cell whose centre is at `offset`, m, from the middle of a face of this
+  /// area.
+  [[nodiscard]] double half_beyond(const Vec3& area_vector, const Vec3& offset) const;
   /// Of the cell at the bore, over all of the segment's length, m3.
   [[nodiscard]] double well_index(double skin) const;
 
@@ -42,6 +44,7 @@ class TubeSector {
   [[nodiscard]] double log_rho(double radius) const { return std::log(std::abs(field_.at(radius * middle_))); }
 
   const RadialMesh& mesh_;
+  const AffineMap& space_;
   bool layered_;
   int segment_;
   int sector_;

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "algorithm/cavity_clusters.h"
+#include "algorithm/well_path.h"
 #include "algorithm/well_piece.h"
 #include "algorithm/well_trials.h"
 
@@ -162,6 +163,8 @@ class WellMesher {
     for (const TubeSummary& t : s.tubes) ranges.push_back(t.range);
     const double share = task_.samples[w].share(ranges);
     s.length_meshed = s.length_in_rock * share;
+    const WellPath path(task_.wells[w].trajectory);
+    for (TubeSummary& t : s.tubes) t.range = {path.original(t.range.from), path.original(t.range.to)};
     if (!s.meshed) {
       if (s.reason.empty()) s.reason = "no tube of any radius was found";
       return;

@@ -11,7 +11,14 @@
 
 namespace wellknit {
 
-WellPath::WellPath(const Trajectory& trajectory) : depth_(trajectory.measured_depth), points_(trajectory.points) {
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto upper = std::upper_bound(x.begin(), x.end(), at);
+  const auto i = std::clamp<std::size_t>(static_cast<std::size_t>(upper - x.begin()), 1, x.size() - 1) - 1;
+  return y[i] + (at - x[i]) / (x[i + 1] - x[i]) * (y[i + 1] - y[i]);
+}
+
+WellPath::WellPath(const Trajectory& trajectory)
+    : depth_(trajectory.measured_depth), points_(trajectory.points), original_(trajectory.moved.measured_depth) {
   const std::size_t n = points_.size();
   if (n < 2 || depth_.size() != n) throw InvalidInput("a trajectory needs two or more stations");
   for (std::size_t i = 1; i < n; ++i)
@@ -58,6 +65,10 @@ Vec3 WellPath::derivative(double measured_depth) const {
   const double t = (measured_depth - depth_[i]) / h;
   return 6.0 * t * (1.0 - t) / h * (points_[i + 1] - points_[i]) + (1.0 - t) * (1.0 - 3.0 * t) * slopes_[i] +
          t * (3.0 * t - 2.0) * slopes_[i + 1];
+}
+
+double WellPath::original(double measured_depth) const {
+  return original_.empty() ? measured_depth : interpolated(depth_, original_, measured_depth);
 }
 
 }  // namespace wellknit

@@ -20,6 +20,8 @@ class WellPath {
   [[nodiscard]] Vec3 point(double measured_depth) const;
   /// Derivative of the point with respect to measured depth, not normalised.
   [[nodiscard]] Vec3 derivative(double measured_depth) const;
+  /// The measured depth, m, that this one was before the path was moved (Trajectory::moved).
+  [[nodiscard]] double original(double measured_depth) const;
 
  private:
   [[nodiscard]] std::size_t interval(double measured_depth) const;
@@ -27,6 +29,11 @@ class WellPath {
   std::vector<double> depth_;
   std::vector<Vec3> points_;
   std::vector<Vec3> slopes_;  ///< derivative at the stations
+  std::vector<double> original_;
 };
+
+/// The piecewise linear function through (x, y) at a place; beyond the ends its end pieces go on. `x` rises strictly;
+/// two points or more.
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 }  // namespace wellknit

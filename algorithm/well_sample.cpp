@@ -70,18 +70,17 @@ void limit_radii(const std::vector<Well>& wells, const std::vector<WellSample>& 
 }  // namespace
 
 double WellSample::share(const std::vector<MeasuredDepthRange>& ranges) const {
-  std::int64_t inside = 0;
-  std::int64_t all = 0;
+  double inside = 0.0;
+  double all = 0.0;
   for (const PathCell& c : cells) {
     if (!c.exists) continue;
-    ++all;
-    inside +=
-        std::any_of(ranges.begin(), ranges.end(),
-                    [&](const MeasuredDepthRange& r) { return c.measured_depth >= r.from && c.measured_depth <= r.to; })
-            ? 1
-            : 0;
+    all += c.weight;
+    if (std::any_of(ranges.begin(), ranges.end(), [&](const MeasuredDepthRange& r) {
+          return c.measured_depth >= r.from && c.measured_depth <= r.to;
+        }))
+      inside += c.weight;
   }
-  return all > 0 ? static_cast<double>(inside) / static_cast<double>(all) : 0.0;
+  return all > 0.0 ? inside / all : 0.0;
 }
 
 WellSample sample_well(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
@@ -92,7 +91,7 @@ WellSample sample_well(const CornerPointGrid& grid, const HostMesh& host, const 
   const MeasuredDepthRange inside = range_in_grid(locator, path);
   const double step = (inside.to - inside.from) / sample_count;
   HostCellId hint;
-  std::int64_t in_rock = 0;
+  double in_rock = 0.0;
   for (int i = 0; i <= sample_count; ++i) {
     const double md = inside.from + step * i;
     const auto location = locator.locate(path.point(md), hint);
@@ -100,10 +99,14 @@ WellSample sample_well(const CornerPointGrid& grid, const HostMesh& host, const 
     hint = location->cell;
     auto at = grid.ijk(hint);
     at[2] = host.corners.layer(at[2]);
-    cells.push_back({md, path.point(md).z(), at, host.exists[hint] != 0});
-    in_rock += cells.back().exists ? 1 : 0;
+    const double weight = well.trajectory.moved.measured_depth.empty()
+                              ? 1.0
+                              : (path.original(md + 0.5 * step) - path.original(md - 0.5 * step)) / step;
+    cells.push_back({md, path.point(md).z(), at, host.exists[hint] != 0, weight});
+    in_rock += cells.back().exists ? weight : 0.0;
   }
-  out.length_in_rock = std::min(step * sample_count, step * static_cast<double>(in_rock));
+  const double most = path.original(inside.from + step * sample_count) - path.original(inside.from);
+  out.length_in_rock = std::min(most, step * in_rock);
   if (cells.empty()) {
     const Vec3& a = well.trajectory.points.front();
     const Vec3& b = well.trajectory.points.back();

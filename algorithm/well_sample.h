@@ -22,6 +22,7 @@ struct PathCell {
   double depth = 0.0;                  ///< m
   std::array<std::int64_t, 3> cell{};  ///< source (i, j, place)
   bool exists = false;
+  double weight = 1.0;  ///< length before the path was moved over that after
 };
 
 struct WellSample {

@@ -373,6 +373,7 @@ TubeOrReason build_layered_tube(const HostFrame& frame, const Well& well, const 
       return NoTube{fmt::format("a fault or a place without thickness lies within {:.3g} m of it",
                                 (1.0 + layered_gap) * radii.back())};
   Tube tube;
+  tube.space = well.trajectory.moved.map;
   tube.layered = true;
   tube.real.segments = static_cast<int>(frame.grid.dimensions()[2]);
   tube.real.sectors = well.radial.sectors;
@@ -402,13 +403,15 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const Me
   const int natural_segments = std::clamp(static_cast<int>(std::lround(length / outer)), 2, most_natural_segments);
   const int segments = options.segments.value_or(natural_segments);
   const Sweep sweep = smooth_sweep(even_stations(well, stretch.from, stretch.to, segments));
+  const WellPath path(well.trajectory);
   Tube tube;
+  tube.space = well.trajectory.moved.map;
   tube.real = sweep_rings(sweep.frames, radii, options.sectors, 0.0);
   for (int k = 0; k <= segments; ++k) tube.real.measured_depth.push_back(stretch.from + length * k / segments);
   int tight = 0;
   if (sweep.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.real, &tight) < least_lateral_ratio)
     return NoTube{fmt::format("it bends too sharply for a drainage radius of {:g} m at measured depth {:.1f} m", outer,
-                              tube.real.measured_depth[static_cast<std::size_t>(tight)]),
+                              path.original(tube.real.measured_depth[static_cast<std::size_t>(tight)])),
                   tube.real.measured_depth[static_cast<std::size_t>(tight)]};
   if (options.rings < well.radial.rings)
     tube.notes.push_back(fmt::format(
@@ -431,7 +434,7 @@ TubeOrReason build_swept_tube(const HostFrame& frame, const Well& well, const Me
   if (ideal.tilt > 3.0 * tilt_limit || smallest_lateral_ratio(tube.reference, &tight) < least_reference_ratio)
     return NoTube{
         fmt::format("the grid bends too sharply around it at measured depth {:.1f} m for a drainage radius of {:g} m",
-                    tube.real.measured_depth[static_cast<std::size_t>(tight)], outer),
+                    path.original(tube.real.measured_depth[static_cast<std::size_t>(tight)]), outer),
         tube.real.measured_depth[static_cast<std::size_t>(tight)]};
   return tube;
 }

@@ -22,9 +22,10 @@ namespace wellknit {
 struct Tube {
   std::size_t well = 0;  ///< place in the list of wells of the run
   bool layered = false;
-  RadialMesh real;
+  RadialMesh real;  ///< in the space that the mesh is made in
   RadialMesh reference;
   double reference_radius = 0.0;  ///< of the outermost circle in E_ref, m
+  AffineMap space{};              ///< from the real space to that of `real` (metric_space.h)
   std::vector<std::string> notes;
 };
 

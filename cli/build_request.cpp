@@ -71,6 +71,8 @@ constexpr std::array<std::pair<std::string_view, MappingMethod>, 2> mapping_meth
 constexpr std::array<std::pair<std::string_view, FaultPolicy>, 2> fault_policies{
     {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
 
+constexpr std::array<std::pair<std::string_view, Metric>, 2> metrics{
+    {{"geometric", Metric::geometric}, {"permeability", Metric::permeability}}};
 constexpr std::array<std::pair<std::string_view, Fluxes>, 2> flux_kinds{
     {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
 
@@ -83,16 +85,6 @@ std::string_view name_in(Value value, const std::array<std::pair<std::string_vie
     if (entry == value) return name;
   }
   return "";
-}
-
-/// An option whose other values are promised for later: only what works today is taken.
-void accept_only(const std::string& text, std::initializer_list<std::string_view> works, std::string_view later) {
-  std::string names;
-  for (const std::string_view name : works) {
-    if (text == name) return;
-    names += (names.empty() ? "" : " or ") + std::string(name);
-  }
-  throw UsageError(fmt::format("expected {}, found '{}'; {} not available in this version", names, text, later));
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -215,8 +207,9 @@ constexpr std::array options{
     BuildOption{"heal-throw", "M",
                 "With --fault-policy heal: the largest throw to heal, m [a tenth of the layers' mean thickness there]",
                 Kind::value, [](BuildRequest& r, const std::string& v) { r.heal_throw = length_above_zero(v); }},
-    BuildOption{"metric", "geometric", "Metric of the reference space", Kind::value,
-                [](BuildRequest&, const std::string& v) { accept_only(v, {"geometric"}, "permeability is"); }},
+    BuildOption{"metric", "geometric|permeability",
+                "The space that the mesh is made in: the real one, or with depths times sqrt(k_h / k_v) [geometric]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.metric = choice(v, metrics); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
     BuildOption{"optimise", "on|off", "Moving of inner vertices and centres for orthogonality [off]", Kind::value,
@@ -402,6 +395,7 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   take(out.heal_throw, fallback.heal_throw);
   take(out.fluxes, fallback.fluxes);
   take(out.optimise, fallback.optimise);
+  take(out.metric, fallback.metric);
   take(out.writes, fallback.writes);
   take(out.output, fallback.output);
   take(out.report, fallback.report);
@@ -454,7 +448,7 @@ std::string config_text(const BuildRequest& request) {
   table.insert("mapping", name_of(request.mapping.value_or(MappingMethod::automatic)));
   table.insert("fault-policy", name_of(request.fault_policy.value_or(FaultPolicy::stop)));
   insert(table, "heal-throw", request.heal_throw);
-  table.insert("metric", "geometric");
+  table.insert("metric", name_in(request.metric.value_or(Metric::geometric), metrics));
   if (request.optimise) table.insert("optimise", *request.optimise ? "on" : "off");
   if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);

@@ -71,6 +71,7 @@ struct BuildRequest {
   std::optional<double> heal_throw;  ///< m
   std::optional<Fluxes> fluxes;
   std::optional<bool> optimise;
+  std::optional<Metric> metric;
   std::vector<OutputRequest> writes;
   std::optional<std::string> output;
   std::optional<std::string> report;  ///< the quality report, a page

@@ -298,7 +298,8 @@ int build(const GivenRequest& given) {
                              request.fault_policy.value_or(FaultPolicy::stop),
                              request.heal_throw,
                              request.fluxes.value_or(Fluxes::two_point),
-                             request.optimise.value_or(false)};
+                             request.optimise.value_or(false),
+                             request.metric.value_or(Metric::geometric)};
   progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);

@@ -197,6 +197,13 @@ Json json_of(const MeshOptimisation& o) {
           {"joints_after", json_of(o.joint_after)}};
 }
 
+Json json_of(const AffineMap& space) {
+  Json matrix = Json::array();
+  for (int row = 0; row < 3; ++row)
+    matrix.push_back({space.matrix(row, 0), space.matrix(row, 1), space.matrix(row, 2)});
+  return {{"matrix", std::move(matrix)}, {"origin", {space.origin.x(), space.origin.y(), space.origin.z()}}};
+}
+
 Json json_of(const CavitySummary& cavity) {
   return {{"cells_removed", cavity.cells_removed},
           {"cells_refined", cavity.cells_refined},
@@ -279,6 +286,7 @@ std::string to_json(const BuildReport& report) {
   for (const WellSummary& well : report.build.wells) json["wells"].push_back(json_of(well));
   json["cavities"] = Json::array();
   for (const CavitySummary& cavity : report.build.cavities) json["cavities"].push_back(json_of(cavity));
+  if (report.build.metric_space) json["metric_space"] = json_of(*report.build.metric_space);
   if (report.build.optimisation) json["optimisation"] = json_of(*report.build.optimisation);
   json["pore_volume"] = report.pore_volume;
   json["quality"] = Json::parse(report.quality.to_json());

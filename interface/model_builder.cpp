@@ -151,6 +151,8 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
       {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
   static constexpr std::array<std::pair<std::string_view, Fluxes>, 2> fluxes{
       {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
+  static constexpr std::array<std::pair<std::string_view, Metric>, 2> metrics{
+      {{"geometric", Metric::geometric}, {"permeability", Metric::permeability}}};
   static constexpr std::array<std::pair<std::string_view, bool>, 2> switches{{{"on", true}, {"off", false}}};
   if (option == "mapping")
     options_.mapping = chosen(option, value, mappings);
@@ -158,6 +160,8 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
     options_.fault_policy = chosen(option, value, policies);
   else if (option == "fluxes")
     options_.fluxes = chosen(option, value, fluxes);
+  else if (option == "metric")
+    options_.metric = chosen(option, value, metrics);
   else if (option == "optimise")
     options_.optimise = chosen(option, value, switches);
   else if (option == "refine")
@@ -168,7 +172,7 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
     options_.threads = count(option, value, most_threads);
   else
     throw InvalidInput(fmt::format(
-        "expected the option mapping, optimise, refine, fault-policy, heal-throw, fluxes or threads, found {}",
+        "expected the option mapping, metric, optimise, refine, fault-policy, heal-throw, fluxes or threads, found {}",
         option));
 }
 

@@ -13,6 +13,18 @@ namespace wellknit {
 
 using Vec3 = Eigen::Vector3d;
 
+/// x -> origin + matrix (x - origin). The matrix is regular.
+struct AffineMap {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Identity();
+  Vec3 origin = Vec3::Zero();
+  double determinant = 1.0;
+
+  [[nodiscard]] bool is_identity() const { return matrix == Eigen::Matrix3d::Identity(); }
+  [[nodiscard]] Vec3 to(const Vec3& x) const { return origin + matrix * (x - origin); }
+  [[nodiscard]] Vec3 from(const Vec3& x) const { return origin + inverse * (x - origin); }
+};
+
 /// A polygon taken as the fan of triangles around the mean of its vertices.
 struct PolygonGeometry {
   Vec3 mean = Vec3::Zero();         ///< mean of the vertices, m

@@ -15,10 +15,17 @@
 
 namespace wellknit {
 
+/// Of a path that was moved into another space (algorithm/metric_space.h): how, and its measured depths before.
+struct PathMap {
+  AffineMap map{};
+  std::vector<double> measured_depth{};  ///< m; empty: nothing was done
+};
+
 /// A path in space. Both arrays have one length, 2 or more; measured depth rises strictly.
 struct Trajectory {
   std::vector<double> measured_depth;  ///< m
   std::vector<Vec3> points;            ///< (x, y, depth), m, in the grid's frame
+  PathMap moved{};
 };
 
 /// A stretch of measured depth, m.

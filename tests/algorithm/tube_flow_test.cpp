@@ -15,6 +15,7 @@ namespace wellknit {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double bore = 1.0;  ///< m, of level_tube()
 
 TEST(TubeFlow, MeanPressureRadiusIsTheAreaMeanOfTheLogarithm) {
   // The mean of ln r over a ring by Simpson's rule in r, weight r.
@@ -38,10 +39,11 @@ TEST(TubeFlow, OpenLengthAddsUpTheOverlaps) {
   EXPECT_DOUBLE_EQ(open_length(well, 10.0, 30.0), 2.0 + 1.0 + 1.0);
 }
 
-/// A tube along x, 7 m long, rings from 1 to 400 m, four sectors whose middles are along y, depth, -y, -depth.
-Tube level_tube() {
+/// A tube along x, 7 m long, rings from 1 m or the radius given to 400 m, four sectors whose middles are along y,
+/// depth, -y, -depth.
+Tube level_tube(double bore_radius = 1.0) {
   Tube tube;
-  const std::vector<double> radii{1.0, 3.0, 20.0, 400.0};
+  const std::vector<double> radii{bore_radius, 3.0, 20.0, 400.0};
   std::vector<RingFrame> frames;
   for (const double x : {0.0, 7.0}) frames.push_back({{x, 0, 0}, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()});
   tube.real = sweep_rings(frames, radii, 4, -0.25 * pi);
@@ -64,10 +66,10 @@ TEST(TubeFlow, IsotropicRingsAddUpToThiem) {
   for (int s = 0; s < 4; ++s) {
     // k L theta / ln(R / r_w)
     const double wanted = 3.0 * 7.0 * 0.5 * pi / std::log(400.0);
-    EXPECT_NEAR(resistance({tube, 0, s, k}) * wanted, 1.0, 1e-12);
+    EXPECT_NEAR(resistance({tube, 0, s, k, bore}) * wanted, 1.0, 1e-12);
   }
   // Skin s is a drop of s more: k L theta / (ln(R / r_w) + 2).
-  EXPECT_NEAR(1.0 / resistance({tube, 0, 0, k}, 2.0), 3.0 * 7.0 * 0.5 * pi / (std::log(400.0) + 2.0), 1e-12);
+  EXPECT_NEAR(1.0 / resistance({tube, 0, 0, k, bore}, 2.0), 3.0 * 7.0 * 0.5 * pi / (std::log(400.0) + 2.0), 1e-12);
 }
 
 // k_h = 4, k_v = 1/4: k = 1, sqrt(k_h/k_v) = 4, r_w = 1: x' = y / 2, y' = 2 depth, c^2 = 3.75, rho_bore = 1.25
@@ -82,7 +84,7 @@ TEST(TubeFlow, AnisotropicRingsAddUpToTheLineSink) {
   for (int s = 0; s < 4; ++s) {
     const double share = s % 2 == 0 ? 2.0 * std::atan(4.0) : pi - 2.0 * std::atan(4.0);
     const double drop = s % 2 == 0 ? level : upright;
-    EXPECT_NEAR(resistance({tube, 0, s, k}) * 7.0 * share / drop, 1.0, 2e-5) << s;  // c^2 / R'^2 in the shares
+    EXPECT_NEAR(resistance({tube, 0, s, k, bore}) * 7.0 * share / drop, 1.0, 2e-5) << s;  // c^2 / R'^2 in the shares
   }
 }
 
@@ -91,30 +93,43 @@ TEST(TubeFlow, FlowAroundTheBoreKeepsTheLengthOfTheWay) {
   const double log_ratio = std::log(20.0);  // of the outermost ring
   // Isotropic: k L ln(r_2/r_1) / (theta / 2).
   const Eigen::Matrix3d even = Eigen::Matrix3d::Identity();
-  EXPECT_NEAR(TubeSector(tube, 0, 0, even).half_to_side(2, 0), 7.0 * log_ratio / (0.25 * pi), 1e-12);
+  EXPECT_NEAR(TubeSector(tube, 0, 0, even, bore).half_to_side(2, 0), 7.0 * log_ratio / (0.25 * pi), 1e-12);
   // k_h = 4, k_v = 1/4, far from the bore, from the middle (along y, rho = r / 2) to the side at 45 degrees (rho =
   // r sqrt(1/8 + 2), nu = atan 4): L ln(r_2/r_1) nu / (nu^2 + ln^2(sqrt(8.5))).
   const Eigen::Matrix3d k = Vec3(4.0, 4.0, 0.25).asDiagonal();
   const double nu = std::atan(4.0);
   const double turn = 0.5 * std::log(8.5);
   const double wanted = 7.0 * log_ratio * nu / (nu * nu + turn * turn);
-  EXPECT_NEAR(TubeSector(tube, 0, 0, k).half_to_side(2, 0) / wanted, 1.0, 1e-3);  // c^2 / r0'^2
-  EXPECT_NEAR(TubeSector(tube, 0, 0, k).half_to_side(2, 1) / wanted, 1.0, 1e-3);
+  EXPECT_NEAR(TubeSector(tube, 0, 0, k, bore).half_to_side(2, 0) / wanted, 1.0, 1e-3);  // c^2 / r0'^2
+  EXPECT_NEAR(TubeSector(tube, 0, 0, k, bore).half_to_side(2, 1) / wanted, 1.0, 1e-3);
 }
 
 TEST(TubeFlow, BeyondTheTubeTheDropIsThatFromTheChord) {
   const Tube tube = level_tube();
   // The site stands at 400 cos 45 + 300 m from the axis: k L theta / ln of that over 400.
   const double site = 400.0 * std::sqrt(0.5) + 300.0;
-  const TubeSector sector(tube, 0, 1, Eigen::Matrix3d::Identity());
-  EXPECT_NEAR(sector.half_beyond(300.0), 7.0 * 0.5 * pi / std::log(site / 400.0), 1e-9);
+  const TubeSector sector(tube, 0, 1, Eigen::Matrix3d::Identity(), bore);
+  EXPECT_NEAR(sector.half_beyond({0, 0, 5}, {0, 0, 300}), 7.0 * 0.5 * pi / std::log(site / 400.0), 1e-9);
   // So near that it is inside the circle: half the linear drop.
-  EXPECT_NEAR(sector.half_beyond(40.0), 7.0 * 0.5 * pi / 0.05, 1e-9);
+  EXPECT_NEAR(sector.half_beyond({0, 0, 5}, {0, 0, 40}), 7.0 * 0.5 * pi / 0.05, 1e-9);
+}
+
+TEST(TubeFlow, OfATubeMadeInAnotherSpaceIsThatOfTheRealOne) {
+  // Depths times 4 there: k_h = 4, k_v = 1/4 is isotropic with 1, and the round bore of 1 m is an ellipse of mean
+  // radius 2.5 m. From the bore to 400 m all around: 2 pi L / ln(400 / 2.5).
+  Tube tube = level_tube(2.7);
+  tube.space.matrix = Vec3(1.0, 1.0, 4.0).asDiagonal();
+  tube.space.inverse = Vec3(1.0, 1.0, 0.25).asDiagonal();
+  tube.space.determinant = 4.0;
+  const Eigen::Matrix3d k = Vec3(4.0, 4.0, 0.25).asDiagonal();
+  double conductance = 0.0;
+  for (int s = 0; s < 4; ++s) conductance += 1.0 / resistance({tube, 0, s, k, bore});
+  EXPECT_NEAR(conductance, 2.0 * pi * 7.0 / std::log(400.0 / 2.5), 1e-9);
 }
 
 TEST(TubeFlow, TightRockHasNoIndex) {
   const Tube tube = level_tube();
-  const TubeSector sector(tube, 0, 0, Vec3(1.0, 1.0, 0.0).asDiagonal());
+  const TubeSector sector(tube, 0, 0, Vec3(1.0, 1.0, 0.0).asDiagonal(), bore);
   EXPECT_FALSE(sector.conducts());
   EXPECT_EQ(sector.well_index(0.0), 0.0);
   EXPECT_EQ(sector.half_to_circle(0, 1), 0.0);

@@ -44,6 +44,13 @@ class Options(Case):
         self.write("CASE.DATA", deck(schedule="WELSPECS\nP G 5 5 1* OIL /\n/\nCOMPDAT\nP 2* 1 8 OPEN /\n/\n"))
         self.fail_to_build(1, "CASE.DATA", "--deck-wells", "Q", mention=["--deck-wells: no well Q; its wells are P"])
 
+    def test_permeability_metric(self):
+        self.write("dense.GRDECL", grdecl(PERMZ=f"{15 * 15 * 8}*0"))
+        self.fail_to_build(1, "dense.GRDECL", "--well", "well.csv", "--metric", "permeability",
+                           mention=["no cell on the wells' paths has permeability along all of its axes"])
+        self.write("bare.GRDECL", grdecl(PERMZ=None))
+        self.fail_to_build(1, "bare.GRDECL", "--well", "well.csv", "--metric", "permeability", mention=["--metric permeability needs PERMZ"])
+
     def test_strict(self):
         self.write("edge.csv", csv((0.3, 143.0, 990.0), (0.3, 143.0, 1090.0)))
         self.fail_to_build(1, "box.GRDECL", "--well", "edge.csv", "--strict", mention=["--strict: not meshed: edge; edge: "])

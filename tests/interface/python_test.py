@@ -117,7 +117,7 @@ class Python(unittest.TestCase):
                            (lambda: well(sectors=2), "sectors: expected 3 to 360, found 2"),
                            (lambda: self.mesh.write("x.unknown"), "x.unknown: its extension is none of those in `wellknit formats`"),
                            (lambda: self.mesh.write("x.h5", format="stl"), "no format stl; `wellknit formats` names them"),
-                           (lambda: wellknit.build(grid, colour="red"), "expected the option mapping, optimise, refine, fault-policy, heal-throw, fluxes or threads, found colour")):
+                           (lambda: wellknit.build(grid, colour="red"), "expected the option mapping, metric, optimise, refine, fault-policy, heal-throw, fluxes or threads, found colour")):
             with self.subTest(text=text), self.assertRaises(wellknit.Error) as caught:
                 call()
             self.assertIn(text, str(caught.exception))

@@ -100,6 +100,12 @@ def line_wells(program, kinds=("slanted", "horizontal"), ratios=(1.0, 0.1, 0.01)
             for kind in kinds for r in ratios for d in deformations}
 
 
+def line_wells_metric(program, deformations=DEFORMATIONS):
+    """The same wells in anisotropic rock with the mesh of --metric permeability."""
+    return {f"{kind}, k_v/k_h {r:g}, deform {d:g}": compare(program, line_problem(kind, r, d, meshes=("knit",), options=("--metric", "permeability")))
+            for kind in ("slanted", "horizontal") for r in (0.1, 0.01) for d in deformations}
+
+
 def layered_problem(deform, mode="layered", **more):
     """Layers of 1000 mD and 1 mD in turn; flat, so that ln r stays exact; pillars are deformed."""
     size = (50.0, 50.0, 10.0)

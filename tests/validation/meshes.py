@@ -101,7 +101,7 @@ def on_bores(file, points):
     """Whether points lie on a bore: the disc that closes its end is a face of a transition cell."""
     out = np.zeros(len(points), bool)
     for well in file.get("wells", {}).values():
-        path, radius = well["trajectory"][()][:, 1:], 1.01 * well.attrs["bore_radius"]
+        path, radius = well["trajectory"][()][:, 1:], 10.0 * well.attrs["bore_radius"]  # wide where depths are stretched
         for a, b in zip(path[:-1], path[1:]):
             share = np.clip((points - a) @ (b - a) / max((b - a) @ (b - a), 1e-30), 0, 1)
             out |= np.linalg.norm(points - a - share[:, None] * (b - a), axis=1) < radius

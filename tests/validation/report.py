@@ -44,6 +44,15 @@ def compared(result):
     return table(["case", *(f"{h}, %" for h in HEAD), "pressure along a line, %", "cells", "our tubes"], rows)
 
 
+def ours_alone(result):
+    """Our mesh's errors in %: of the rate and of the pressure along the line, with two-point and consistent fluxes."""
+    rows = []
+    for name, row in result.items():
+        cells = [f"{percent(row[m]['errors'][0])} / {percent(max(abs(e) for _, e in row[m]['line']))}" for m in ("knit", "knit_consistent")]
+        rows.append([name, *cells, f"{row['knit']['cells']:,}"])
+    return table(["case", "two-point: rate / line, %", "consistent: rate / line, %", "cells"], rows)
+
+
 def attribution(result):
     names = sorted({n for row in result.values() for n in row["parts"]})
     rows = [[name, percent(row["error"]), *(percent(row["parts"].get(n, 0.0)) for n in names)]
@@ -122,6 +131,9 @@ def verdicts(results):
                 if "line_wells" in results:
                     both(f"{kind} well, k_v/k_h {ratio}, deform {deform}", 2, results["line_wells"],
                          lambda n: n == f"{kind}, k_v/k_h {ratio}, deform {deform}")
+                if "line_wells_metric" in results and ratio != "1":
+                    both("the same with `--metric permeability`", 2, results["line_wells_metric"],
+                         lambda n: n == f"{kind}, k_v/k_h {ratio}, deform {deform}")
     if "patch" in results:
         for mesh, label in (("corner_point", "box grid without a well"), ("knit", "box grid with a shut well"),
                             ("corner_point_consistent", "box grid without a well, consistent fluxes"),
@@ -139,7 +151,8 @@ def verdicts(results):
             table(["other figures", "limit", "largest", "met"], rows))
 
 
-TABLES = {"thiem": compared, "boundary": compared, "two_wells": compared, "line_wells": compared, "layered": compared,
+TABLES = {"thiem": compared, "boundary": compared, "two_wells": compared, "line_wells": compared, "line_wells_metric": ours_alone,
+          "layered": compared,
           "attribution": attribution, "patch": patch, "patch_pressure": patch_pressure, "field_SPE9": field,
           "field_MODEL5": field, "pore_volume": pore_volume}
 FILES = {"patch_pressure": "patch"}

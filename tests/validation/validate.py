@@ -37,6 +37,7 @@ RUNS = {
     "boundary": lambda program, shared: cases.boundary(program),
     "two_wells": lambda program, shared: cases.two_wells(program),
     "line_wells": lambda program, shared: cases.line_wells(program),
+    "line_wells_metric": lambda program, shared: cases.line_wells_metric(program),
     "layered": lambda program, shared: cases.layered(program),
     "attribution": lambda program, shared: cases.attribution_of_thiem(program),
     "patch": lambda program, shared: patch_test.run(program),
