@@ -5,7 +5,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "algorithm/line_sink.h"
 
@@ -84,53 +86,71 @@ RadialFlow::Axis RadialFlow::axis_of(const Tube& tube, const Well& well) {
   out.tube = &tube;
   out.bore_radius =
       tube.space.is_identity() ? (tube.real.point(0, 0, 0) - tube.real.axis[0]).norm() : well.radial.bore_radius;
-  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    if (k % run_length == 0) out.runs.emplace_back();
-    for (const Vec3& p : {points[k], points[k + 1]}) {
-      out.runs.back().add(p);
-      out.box.add(p);
-    }
-    out.pieces.push_back({points[k], points[k + 1]});
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) out.pieces.push_back({points[k], points[k + 1]});
+  while (out.leaves * run_length < out.pieces.size()) out.leaves *= 2;
+  out.boxes.resize(2 * out.leaves - 1);
+  for (std::size_t k = 0; k < out.pieces.size(); ++k) {
+    Box& leaf = out.boxes[out.leaves - 1 + k / run_length];
+    leaf.add(out.pieces[k].from);
+    leaf.add(out.pieces[k].to);
+  }
+  for (std::size_t n = out.leaves - 1; n-- > 0;) {
+    out.boxes[n] = out.boxes[2 * n + 1];
+    out.boxes[n].add(out.boxes[2 * n + 2]);
   }
   return out;
 }
 
-RadialFlow::Nearest RadialFlow::nearest_on(const Axis& axis, const Vec3& point) {
+void RadialFlow::look_at_run(const Axis& axis, std::size_t run, const Vec3& point, std::size_t& best, Nearest& out) {
+  const auto& pieces = axis.pieces;
+  const std::size_t end = std::min((run + 1) * run_length, pieces.size());
+  for (std::size_t k = run * run_length; k < end; ++k) {
+    double parameter = 0.0;
+    const Vec3 foot = foot_on(pieces[k].from, pieces[k].to, point, parameter);
+    const double distance = (point - foot).norm();
+    // Of two that meet at the foot the first, whatever the order.
+    if (distance > out.distance || (distance == out.distance && k > best)) continue;
+    best = k;
+    out.distance = distance;
+    out.foot = foot;
+    out.along = pieces[k].to - pieces[k].from;
+    out.is_beyond_end = (k == 0 && parameter < 0.0) || (k + 1 == pieces.size() && parameter > 1.0);
+  }
+}
+
+/// The nearer half first; what is farther than the nearest piece is passed over.
+void RadialFlow::look_below(const Axis& axis, std::size_t box, const Vec3& point, std::size_t& best, Nearest& out) {
+  if (box + 1 >= axis.leaves) return look_at_run(axis, box + 1 - axis.leaves, point, best, out);
+  std::array<std::size_t, 2> halves{2 * box + 1, 2 * box + 2};
+  std::array<double, 2> distances{axis.boxes[halves[0]].distance(point), axis.boxes[halves[1]].distance(point)};
+  if (distances[1] < distances[0]) {
+    std::swap(halves[0], halves[1]);
+    std::swap(distances[0], distances[1]);
+  }
+  for (std::size_t h = 0; h < 2; ++h)
+    // A billionth: rounding must not pass over the nearest piece.
+    if (distances[h] <= out.distance * (1.0 + 1e-9)) look_below(axis, halves[h], point, best, out);
+}
+
+RadialFlow::Nearest RadialFlow::nearest_on(const Axis& axis, const Vec3& point, double most) {
   Nearest out;
   out.axis = &axis;
-  const auto& pieces = axis.pieces;
-  std::size_t best = pieces.size();
-  const auto look_at = [&](std::size_t run) {
-    const std::size_t end = std::min((run + 1) * run_length, pieces.size());
-    for (std::size_t k = run * run_length; k < end; ++k) {
-      double parameter = 0.0;
-      const Vec3 foot = foot_on(pieces[k].from, pieces[k].to, point, parameter);
-      const double distance = (point - foot).norm();
-      // Of two that meet at the foot the first, whatever the order.
-      if (distance > out.distance || (distance == out.distance && k > best)) continue;
-      best = k;
-      out.distance = distance;
-      out.foot = foot;
-      out.along = pieces[k].to - pieces[k].from;
-      out.is_beyond_end = (k == 0 && parameter < 0.0) || (k + 1 == pieces.size() && parameter > 1.0);
-    }
-  };
-  const auto nearest = std::min_element(axis.runs.begin(), axis.runs.end(), [&](const Box& one, const Box& other) {
-    return one.distance(point) < other.distance(point);
-  });
-  const auto first = static_cast<std::size_t>(std::distance(axis.runs.begin(), nearest));
-  look_at(first);
-  for (std::size_t run = 0; run < axis.runs.size(); ++run)
-    // A billionth: rounding must not pass over the nearest piece.
-    if (run != first && axis.runs[run].distance(point) <= out.distance * (1.0 + 1e-9)) look_at(run);
+  std::size_t best = axis.pieces.size();
+  if (axis.boxes[0].distance(point) <= most) {
+    // Pieces farther than that are not looked for.
+    out.distance = std::isfinite(most) ? most * (1.0 + 1e-9) : most;
+    look_below(axis, 0, point, best, out);
+  }
+  if (best == axis.pieces.size()) out.distance = std::numeric_limits<double>::infinity();
   return out;
 }
 
 RadialFlow::Nearest RadialFlow::nearest_axis(const Vec3& point) const {
   Nearest out;
   for (const Axis& axis : axes_) {
-    if (axis.box.distance(point) > out.next_distance) continue;
-    Nearest other = nearest_on(axis, point);
+    // Another well more than twice as far does not count: factor().
+    Nearest other = nearest_on(axis, point, std::min(out.next_distance, 2.0 * out.distance));
+    if (!std::isfinite(other.distance)) continue;
     const bool is_same_well = out.axis == nullptr || out.axis->tube->well == axis.tube->well;
     if (other.distance < out.distance) {
       other.next_distance = is_same_well ? out.next_distance : out.distance;

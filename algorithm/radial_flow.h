@@ -74,16 +74,21 @@ class RadialFlow {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    [[nodiscard]] double distance(const Vec3& p) const { return (p - p.cwiseMax(low).cwiseMin(high)).norm(); }
+    void add(const Box& other) {
+      low = low.cwiseMin(other.low);
+      high = high.cwiseMax(other.high);
+    }
+    /// Infinite for an empty box.
+    [[nodiscard]] double distance(const Vec3& p) const { return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm(); }
   };
-  /// An axis, with what the well goes on beyond the tube; runs of its pieces that are farther than another are passed
-  /// over at once.
+  /// An axis, with what the well goes on beyond the tube. Its boxes are a binary tree over runs of pieces: box n holds
+  /// boxes 2 n + 1 and 2 n + 2; the last `leaves` of them hold run_length pieces each, in order.
   struct Axis {
     const Tube* tube = nullptr;
     double bore_radius = 0.0;  ///< m
     std::vector<Piece> pieces;
-    std::vector<Box> runs;  ///< of run_length pieces
-    Box box;
+    std::vector<Box> boxes;
+    std::size_t leaves = 1;  ///< a power of two; those beyond the pieces are empty
   };
   /// Foot of the perpendicular on the nearest axis.
   struct Nearest {
@@ -96,7 +101,10 @@ class RadialFlow {
   };
 
   static Axis axis_of(const Tube& tube, const Well& well);
-  static Nearest nearest_on(const Axis& axis, const Vec3& point);
+  /// Of pieces nearer than `most`; an infinite distance where there are none.
+  static Nearest nearest_on(const Axis& axis, const Vec3& point, double most);
+  static void look_below(const Axis& axis, std::size_t box, const Vec3& point, std::size_t& best, Nearest& out);
+  static void look_at_run(const Axis& axis, std::size_t run, const Vec3& point, std::size_t& best, Nearest& out);
   [[nodiscard]] Nearest nearest_axis(const Vec3& point) const;
 
   static constexpr std::size_t run_length = 8;
