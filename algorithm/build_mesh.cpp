@@ -20,6 +20,7 @@
 #include "algorithm/metric_space.h"
 #include "algorithm/property_transfer.h"
 #include "algorithm/source_pore_volume.h"
+#include "algorithm/split_columns.h"
 #include "algorithm/well_connections.h"
 #include "algorithm/well_mesher.h"
 #include "algorithm/well_path.h"
@@ -82,7 +83,7 @@ class Builder {
     result_.summary.notes = host_.notes;
     result_.summary.validity = check_host_validity(grid_, host_);
     locator_ = std::make_unique<CellLocator>(grid_);
-    if (options_.metric == Metric::permeability && !wells_.empty()) move_to_metric_space();
+    if (options_.metric == Metric::permeability && !wells_.empty() && options_.split == 1) move_to_metric_space();
     clock_.lap("host grid");
     Assembly assembly = knit();
     if (options_.optimise && !cavities_.empty()) {
@@ -179,7 +180,9 @@ class Builder {
   void make_cavities(const std::map<std::size_t, std::string>& left_out) {
     cavities_.clear();
     near_well_grids_.clear();
-    MeshedWells meshed = mesh_wells(*mesh_grid_, host_, *locator_, *mesh_wells_, options_, left_out);
+    MeshedWells meshed = options_.split > 1
+                             ? split_columns(grid_, host_, *locator_, wells_, options_.split)
+                             : mesh_wells(*mesh_grid_, host_, *locator_, *mesh_wells_, options_, left_out);
     result_.summary.wells = std::move(meshed.wells);
     plan_ = std::move(meshed.plan);
     for (MeshedCavity& c : meshed.cavities) {
@@ -309,7 +312,7 @@ class Builder {
   }
 
   void add_wells(Assembly& assembly) {
-    WellConnector connector(grid_, host_, *locator_, assembly);
+    WellConnector connector(grid_, host_, *locator_, assembly, options_.split > 1);
     for (std::size_t w = 0; w < wells_.size(); ++w) {
       const Well& well = wells_[w];
       WellSummary& summary = result_.summary.wells[w];

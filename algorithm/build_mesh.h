@@ -49,6 +49,7 @@ struct BuildOptions {
   Fluxes fluxes = Fluxes::two_point;
   bool optimise = false;  ///< inner vertices and centres of transition cells are moved (optimise_mesh.h)
   Metric metric = Metric::geometric;
+  int split = 1;  ///< above 1: every column in so many parts along i and j, and no meshes around wells
 };
 
 /// A radial mesh along a stretch of a well.

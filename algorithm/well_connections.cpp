@@ -134,11 +134,12 @@ class WellConnector::MadeCells {
 };
 
 WellConnector::WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
-                             const Assembly& assembly)
+                             const Assembly& assembly, bool computes_all)
     : grid_(grid),
       host_(host),
       locator_(locator),
       assembly_(assembly),
+      computes_all_(computes_all),
       made_cells_(std::make_unique<MadeCells>(assembly.mesh)) {}
 WellConnector::~WellConnector() = default;
 
@@ -158,7 +159,7 @@ WellConnections WellConnector::connect(std::size_t well_index, const Well& well)
   if (rest.open.empty()) return out;
   const auto parts = cells_along(grid_, locator_, well.trajectory);
   const HostPath path = split_at_refined(grid_, host_, parts);
-  const bool is_from_deck = tubes.empty() && !well.completions.empty();
+  const bool is_from_deck = tubes.empty() && !well.completions.empty() && !computes_all_;
   const auto kept =
       is_from_deck ? completion_indices(grid_, host_, well, parts) : peaceman_indices(grid_, host_, rest, path.parts);
   for (const HostWellConnection& c : kept)

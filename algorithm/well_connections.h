@@ -19,11 +19,13 @@ struct WellConnections {
   std::int64_t by_index = 0;        ///< of these, host and transition cells
 };
 
-/// Connects one well after the other. Needs the mesh's permeabilities and transfer map; all references must outlive it.
+/// Connects one well after the other. Where it `computes_all`, factors that a deck gives for whole cells do not count:
+/// the cells are parts of them.
+/// Needs the mesh's permeabilities and transfer map; all references must outlive it.
 class WellConnector {
  public:
-  WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator,
-                const Assembly& assembly);
+  WellConnector(const CornerPointGrid& grid, const HostMesh& host, const CellLocator& locator, const Assembly& assembly,
+                bool computes_all = false);
   ~WellConnector();
   WellConnector(const WellConnector&) = delete;
   WellConnector& operator=(const WellConnector&) = delete;
@@ -37,6 +39,7 @@ class WellConnector {
   const HostMesh& host_;
   const CellLocator& locator_;
   const Assembly& assembly_;
+  bool computes_all_;
   std::unique_ptr<MadeCells> made_cells_;
 };
 

@@ -108,6 +108,12 @@ int refinement_levels(const std::string& text) {
   return levels;
 }
 
+int split_parts(const std::string& text) {
+  const int parts = count_from(1, text);
+  if (parts > 10) throw UsageError(fmt::format("expected 1 to 10, found '{}'", text));
+  return parts;
+}
+
 bool is_on(const std::string& text) {
   if (text == "on") return true;
   if (text == "off") return false;
@@ -201,6 +207,8 @@ constexpr std::array options{
     BuildOption{"refine", "auto|off|N",
                 "Splitting of the host's columns near wells: by their radii, never, or N times in two [auto]",
                 Kind::value, [](BuildRequest& r, const std::string& v) { r.refinement_levels = refinement_levels(v); }},
+    BuildOption{"split", "N", "For comparisons: every column in N x N parts, 1 to 10, and no meshes around wells [1]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.split = split_parts(v); }},
     BuildOption{"fault-policy", "stop|heal",
                 "Small throws near wells: the wells stop there, or they are averaged out before [stop]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.fault_policy = choice(v, fault_policies); }},
@@ -396,6 +404,7 @@ BuildRequest overlay(const BuildRequest& given, const BuildRequest& fallback) {
   take(out.fluxes, fallback.fluxes);
   take(out.optimise, fallback.optimise);
   take(out.metric, fallback.metric);
+  take(out.split, fallback.split);
   take(out.writes, fallback.writes);
   take(out.output, fallback.output);
   take(out.report, fallback.report);
@@ -449,6 +458,7 @@ std::string config_text(const BuildRequest& request) {
   table.insert("fault-policy", name_of(request.fault_policy.value_or(FaultPolicy::stop)));
   insert(table, "heal-throw", request.heal_throw);
   table.insert("metric", name_in(request.metric.value_or(Metric::geometric), metrics));
+  if (request.split.value_or(1) > 1) table.insert("split", *request.split);
   if (request.optimise) table.insert("optimise", *request.optimise ? "on" : "off");
   if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);

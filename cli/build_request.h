@@ -72,6 +72,7 @@ struct BuildRequest {
   std::optional<Fluxes> fluxes;
   std::optional<bool> optimise;
   std::optional<Metric> metric;
+  std::optional<int> split;
   std::vector<OutputRequest> writes;
   std::optional<std::string> output;
   std::optional<std::string> report;  ///< the quality report, a page

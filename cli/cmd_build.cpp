@@ -299,7 +299,8 @@ int build(const GivenRequest& given) {
                              request.heal_throw,
                              request.fluxes.value_or(Fluxes::two_point),
                              request.optimise.value_or(false),
-                             request.metric.value_or(Metric::geometric)};
+                             request.metric.value_or(Metric::geometric),
+                             request.split.value_or(1)};
   progress.next();
   const BuildResult result = build_mesh(in.source, in.wells, options);
   if (request.strict) require_all_meshed(result.summary);
@@ -313,7 +314,7 @@ int build(const GivenRequest& given) {
   progress.next();
   const Provenance provenance{program_and_version(), given.command, config_text(request), in.files};
   std::vector<bool> meshed;
-  for (const WellSummary& well : result.summary.wells) meshed.push_back(well.meshed);
+  for (const WellSummary& well : result.summary.wells) meshed.push_back(well.meshed || request.split.value_or(1) > 1);
   const DeckOutput write_deck = [&](const std::string& file, const std::string& folder, const std::string& name) {
     report.conversion = convert_deck({*deck, in.source, in.wells, meshed, result.mesh}, {file, folder, name});
     return std::vector<std::string>{fmt::format("{} beside it holds what it includes", name)};

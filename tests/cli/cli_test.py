@@ -156,7 +156,7 @@ class BadInput(Case):
     def test_bad_option_values(self):
         for option, value in (("--radius", "-3"), ("--radius", "nan"), ("--sectors", "2"), ("--sectors", "4.5"), ("--rings", "0"),
                               ("--growth", "0"), ("--segments", "0"), ("--mode", "spiral"), ("--threads", "0"), ("--refine", "11"),
-                              ("--fault-policy", "jump"), ("--heal-throw", "-1"), ("--metric", "euclidean"), ("--mapping", "best"),
+                              ("--fault-policy", "jump"), ("--heal-throw", "-1"), ("--metric", "euclidean"), ("--split", "0"), ("--split", "11"), ("--mapping", "best"),
                               ("--write", "vtu"), ("--write", "png=a.png"), ("--deck-wells", "")):
             with self.subTest(option=option, value=value):
                 self.fail_to_build(2, "box.GRDECL", "--well", "well.csv", option, value, mention=[option if option != "--write" else value.split("=")[0]])
