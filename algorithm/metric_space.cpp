@@ -141,12 +141,12 @@ AffineMap metric_space(const CornerPointGrid& grid, const HostMesh& host, const 
 
 CornerPointGrid moved(const AffineMap& space, const CornerPointGrid& grid) {
   CornerPointGrid out = grid;
-  const auto [nx, ny, nz] = grid.dimensions;
-  const std::int64_t rows = 2 * ny;
-  tbb::parallel_for(std::int64_t{0}, 2 * nz * rows, [&](std::int64_t row) {
+  const std::int64_t columns = 2 * grid.dimensions[0];
+  const std::int64_t rows = 2 * grid.dimensions[1];
+  tbb::parallel_for(std::int64_t{0}, 2 * grid.dimensions[2] * rows, [&](std::int64_t row) {
     const std::int64_t j = (row % rows + 1) / 2;
-    for (std::int64_t n = 0; n < 2 * nx; ++n) {
-      const auto at = static_cast<std::size_t>(2 * nx * row + n);
+    for (std::int64_t n = 0; n < columns; ++n) {
+      const auto at = static_cast<std::size_t>(columns * row + n);
       out.zcorn[at] = space.to(grid.pillar_point((n + 1) / 2, j, grid.zcorn[at])).z();
     }
   });
