@@ -18,6 +18,7 @@
 #include "algorithm/heal_faults.h"
 #include "algorithm/host_validity.h"
 #include "algorithm/metric_space.h"
+#include "algorithm/path_cells.h"
 #include "algorithm/property_transfer.h"
 #include "algorithm/source_pore_volume.h"
 #include "algorithm/split_columns.h"
@@ -87,7 +88,7 @@ class Builder {
     clock_.lap("host grid");
     Assembly assembly = knit();
     if (options_.optimise && !cavities_.empty()) {
-      result_.summary.optimisation = optimise_mesh(assembly.mesh);
+      result_.summary.optimisation = optimise_mesh(assembly.mesh, transition_cells_on_paths(assembly, *mesh_wells_));
       clock_.lap("optimisation");
     }
     if (mesh_grid_ != &grid_) move_back(assembly);

@@ -21,6 +21,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <unordered_map>
 #include <vector>
 
 #include "algorithm/cell_center.h"
@@ -69,12 +70,15 @@ std::vector<std::vector<FaceId>> cavities_of(const Mesh& mesh) {
   return out;
 }
 
-/// Vertices that belong to transition cells alone.
-std::vector<std::uint8_t> free_vertices(const Mesh& mesh) {
+/// Vertices that belong to transition cells alone, and to none of the sorted cells that are kept.
+std::vector<std::uint8_t> free_vertices(const Mesh& mesh, const std::vector<CellId>& kept) {
+  const auto moves = [&](CellId cell) {
+    return is_transition(mesh, cell) && !std::binary_search(kept.begin(), kept.end(), cell);
+  };
   std::vector<std::uint8_t> out(mesh.vertices.size(), 1);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto [a, b] = mesh.faces.cells[FaceId(f)];
-    if (is_transition(mesh, a) && is_transition(mesh, b)) continue;
+    if (moves(a) && moves(b)) continue;
     for (const VertexId v : mesh.faces.loop(FaceId(f))) out[v.index()] = 0;
   }
   return out;
@@ -84,23 +88,24 @@ std::vector<std::uint8_t> free_vertices(const Mesh& mesh) {
 class CavityShape {
  public:
   CavityShape(const Mesh& mesh, const std::vector<FaceId>& faces, const std::vector<std::uint8_t>& is_free,
-              const OptimisationWeights& weights)
+              const std::vector<CellId>& kept, const OptimisationWeights& weights)
       : weights_(weights) {
-    std::vector<std::int32_t> place_of_vertex(mesh.vertices.size(), -1);
-    std::vector<std::int32_t> place_of_cell(mesh.cells.size(), -1);
-    const auto place = [&](std::vector<std::int32_t>& places, std::size_t at, const Vec3& point, bool moves) {
-      if (places[at] < 0) {
-        places[at] = static_cast<std::int32_t>(points_.size());
+    // By index in the mesh; the cavity is a small part of it.
+    std::unordered_map<std::size_t, std::int32_t> place_of_vertex;
+    std::unordered_map<std::size_t, std::int32_t> place_of_cell;
+    const auto place = [&](auto& places, std::size_t at, const Vec3& point, bool moves) {
+      const auto [known, is_new] = places.try_emplace(at, static_cast<std::int32_t>(points_.size()));
+      if (is_new) {
         points_.push_back(point);
         moves_.push_back(moves ? 1 : 0);
       }
-      return places[at];
+      return known->second;
     };
     for (const FaceId face : faces) {
       Face out;
       out.begin = loops_.size();
       for (const VertexId v : mesh.faces.loop(face)) {
-        const bool is_new = place_of_vertex[v.index()] < 0;
+        const bool is_new = !place_of_vertex.contains(v.index());
         loops_.push_back(place(place_of_vertex, v.index(), mesh.vertices[v], is_free[v.index()] != 0));
         if (is_new) vertices_.push_back({v, loops_.back()});
       }
@@ -108,11 +113,12 @@ class CavityShape {
       for (std::size_t side = 0; side < 2; ++side) {
         const CellId cell = mesh.faces.cells[face][side];
         if (!cell.is_valid()) continue;
-        const bool moves = is_transition(mesh, cell);
-        const bool is_new = place_of_cell[cell.index()] < 0;
+        const bool is_made = is_transition(mesh, cell);
+        const bool moves = is_made && !std::binary_search(kept.begin(), kept.end(), cell);
+        const bool is_new = !place_of_cell.contains(cell.index());
         out.center[side] = place(place_of_cell, cell.index(), mesh.cells.center[cell], moves);
-        out.is_made[side] = moves;
-        if (is_new && moves) cells_.push_back({cell, out.center[side], mesh.cells.volume[cell]});
+        out.is_made[side] = is_made;
+        if (is_new && is_made) cells_.push_back({cell, out.center[side], mesh.cells.volume[cell]});
       }
       faces_.push_back(out);
     }
@@ -492,11 +498,12 @@ AngleFigures angles_of(const std::vector<CavityShape>& shapes, bool inner) {
 
 }  // namespace
 
-MeshOptimisation optimise_mesh(Mesh& mesh, const OptimisationWeights& weights) {
+MeshOptimisation optimise_mesh(Mesh& mesh, std::vector<CellId> kept, const OptimisationWeights& weights) {
   MeshOptimisation out;
-  const auto is_free = free_vertices(mesh);
+  std::sort(kept.begin(), kept.end());
+  const auto is_free = free_vertices(mesh, kept);
   std::vector<CavityShape> shapes;
-  for (const std::vector<FaceId>& faces : cavities_of(mesh)) shapes.emplace_back(mesh, faces, is_free, weights);
+  for (const std::vector<FaceId>& faces : cavities_of(mesh)) shapes.emplace_back(mesh, faces, is_free, kept, weights);
   out.inner_before = angles_of(shapes, true);
   out.joint_before = angles_of(shapes, false);
   std::vector<int> iterations(shapes.size(), 0);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "model/mesh.h"
 
@@ -42,7 +43,8 @@ struct OptimisationWeights {
 /// Moves vertices that belong to transition cells alone, and the centres of these cells; the mesh's other vertices,
 /// cells and centres, and which faces there are, stay. Cavities with inner faces below 0.5 degrees on average are left
 /// alone. Volumes, centroids and depths of the cells follow. A cell that was seen whole from its centre is so
-/// afterwards. Cavities are worked on side by side; the result does not depend on how.
-MeshOptimisation optimise_mesh(Mesh& mesh, const OptimisationWeights& weights = {});
+/// afterwards. Cells that are `kept` do not change. Cavities are worked on side by side; the result does not depend on
+/// how.
+MeshOptimisation optimise_mesh(Mesh& mesh, std::vector<CellId> kept = {}, const OptimisationWeights& weights = {});
 
 }  // namespace wellknit

@@ -79,6 +79,27 @@ TEST(OptimiseMesh, TurnsFacesTowardsTheLinesOfTheCentres) {
   }
 }
 
+/// A well's indices hold for the cells that its path goes through beyond its tube's ends as the mapping made them.
+TEST(OptimiseMesh, KeepsCellsThatAWellIsConnectedToByIndex) {
+  const Mesh before = built(1.0, Path::curved, false).mesh;
+  const Mesh after = built(1.0, Path::curved, true).mesh;
+  std::size_t count = 0;
+  for (const WellConnection& c : before.wells[WellId(0)].connections) {
+    if (before.cells.kind[c.cell] != CellKind::transition) continue;
+    ++count;
+    EXPECT_EQ(before.cells.center[c.cell], after.cells.center[c.cell]);
+    EXPECT_NEAR(before.cells.volume[c.cell] / after.cells.volume[c.cell], 1.0, 1e-12);
+  }
+  EXPECT_GT(count, 0U);
+  const auto& one = before.wells[WellId(0)].connections;
+  const auto& other = after.wells[WellId(0)].connections;
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t n = 0; n < one.size(); ++n)
+    if (before.cells.kind[one[n].cell] != CellKind::radial) {
+      EXPECT_NEAR(one[n].well_index / other[n].well_index, 1.0, 1e-9);
+    }
+}
+
 /// What is not the transition mesh's own stays to the last bit: vertices of other cells, their centres and volumes, and
 /// the whole volume.
 TEST(OptimiseMesh, MovesNothingElse) {
@@ -136,7 +157,7 @@ TEST(OptimiseMesh, PutsBackCellsThatItWouldSpoil) {
   reckless.barrier = 0.0;
   reckless.planarity = 0.0;
   reckless.keep_inner = reckless.keep_joint = 0.0;
-  const MeshOptimisation o = optimise_mesh(mesh, reckless);
+  const MeshOptimisation o = optimise_mesh(mesh, {}, reckless);
   EXPECT_GT(o.restored, 0);
   EXPECT_LE(o.inner_after.mean, o.inner_before.mean);
   // The connections are those of the mesh as it was built.
