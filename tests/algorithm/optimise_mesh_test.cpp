@@ -81,8 +81,16 @@ TEST(OptimiseMesh, TurnsFacesTowardsTheLinesOfTheCentres) {
 
 /// A well's indices hold for the cells that its path goes through beyond its tube's ends as the mapping made them.
 TEST(OptimiseMesh, KeepsCellsThatAWellIsConnectedToByIndex) {
-  const Mesh before = built(1.0, Path::curved, false).mesh;
-  const Mesh after = built(1.0, Path::curved, true).mesh;
+  // A swept tube through the top and the base stops short of both.
+  Well well = near_well::well(Path::vertical, 12.0);
+  well.radial.mode = MeshMode::swept;
+  const auto mesh = [&](bool optimise) {
+    BuildOptions options;
+    options.optimise = optimise;
+    return build_mesh(near_well::deformed(1.0), {well}, options).mesh;
+  };
+  const Mesh before = mesh(false);
+  const Mesh after = mesh(true);
   std::size_t count = 0;
   for (const WellConnection& c : before.wells[WellId(0)].connections) {
     if (before.cells.kind[c.cell] != CellKind::transition) continue;
