@@ -87,10 +87,7 @@ class Builder {
     if (options_.metric == Metric::permeability && !wells_.empty() && options_.split == 1) move_to_metric_space();
     clock_.lap("host grid");
     Assembly assembly = knit();
-    if (options_.optimise && !cavities_.empty()) {
-      result_.summary.optimisation = optimise_mesh(assembly.mesh, transition_cells_on_paths(assembly, *mesh_wells_));
-      clock_.lap("optimisation");
-    }
+    optimise(assembly);
     if (mesh_grid_ != &grid_) move_back(assembly);
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
@@ -241,6 +238,26 @@ class Builder {
         assembly.mesh.cells.radial_index[CellId(t.first_cell.value() + c)].segment += first;
       first += m.segments;
     }
+  }
+
+  void optimise(Assembly& assembly) {
+    if (options_.optimise == Optimisation::off || cavities_.empty()) return;
+    const std::vector<CellId> kept = transition_cells_on_paths(assembly, *mesh_wells_);
+    if (options_.optimise != Optimisation::vertices)
+      result_.summary.edge_collapse = collapse_short_edges(assembly, kept);
+    if (options_.optimise != Optimisation::edges) result_.summary.optimisation = optimise_mesh(assembly.mesh, kept);
+    if (options_.optimise == Optimisation::on) {
+      // What stood in the way of some edges has moved. Faces are plane now and are to stay so.
+      constexpr double length = 0.025;
+      constexpr double planarity = 0.03;
+      const EdgeCollapse again = collapse_short_edges(assembly, kept, {.length = length, .planarity = planarity});
+      EdgeCollapse& edges = *result_.summary.edge_collapse;
+      edges.short_after = again.short_after;
+      edges.shortest_after = again.shortest_after;
+      edges.edges_removed += again.edges_removed;
+      edges.faces_removed += again.faces_removed;
+    }
+    clock_.lap("optimisation");
   }
 
   /// Where the mapping cannot follow the grid's outside the rock in a cavity gains or loses bulk volume. Its pore

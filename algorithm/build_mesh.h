@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/collapse_edges.h"
 #include "algorithm/optimise_mesh.h"
 #include "model/case.h"
 #include "model/grid_validity.h"
@@ -40,6 +41,14 @@ enum class Metric {
   permeability  ///< one where the permeability along the wells is isotropic (metric_space.h)
 };
 
+/// Steps of the optimisation in the real space.
+enum class Optimisation {
+  off,
+  edges,     ///< short edges are taken out (collapse_edges.h)
+  vertices,  ///< inner vertices and centres of transition cells are moved (optimise_mesh.h)
+  on         ///< both, the edges first
+};
+
 struct BuildOptions {
   MappingMethod mapping = MappingMethod::automatic;
   int threads = 0;             ///< 0: as many as the machine has; the result does not depend on it
@@ -47,7 +56,7 @@ struct BuildOptions {
   FaultPolicy fault_policy = FaultPolicy::stop;
   std::optional<double> heal_throw;  ///< m: the largest throw to heal; unset: see heal_faults()
   Fluxes fluxes = Fluxes::two_point;
-  bool optimise = false;  ///< inner vertices and centres of transition cells are moved (optimise_mesh.h)
+  Optimisation optimise = Optimisation::off;
   Metric metric = Metric::geometric;
   int split = 1;  ///< above 1: every column in so many parts along i and j, and no meshes around wells
 };
@@ -108,6 +117,7 @@ struct StepTime {
 struct BuildSummary {
   std::vector<WellSummary> wells;  ///< in the order given
   std::vector<CavitySummary> cavities;
+  std::optional<EdgeCollapse> edge_collapse;     ///< unset: that step was not asked for
   std::optional<MeshOptimisation> optimisation;  ///< unset: not asked for, or there are no transition cells
   std::optional<AffineMap> metric_space;         ///< of the permeability metric; unset: the geometric one
   GridValidity validity;                         ///< of the host

@@ -538,11 +538,14 @@ TubePlace nearest_place(const std::vector<Tube>& tubes, const Vec3& point, Radia
 void bind_to_host(const NearWellGrid& grid, const RefinementPlan& plan, Cavity& cavity) {
   const HostMesh& host = grid.host();
   const LatticePoint size{plan.unit[0] / grid.parts()[0], plan.unit[1] / grid.parts()[1]};
-  std::map<LatticePoint, HostCellId> refined;
-  for (const RefinedColumn& c : plan.columns) refined.emplace(c.low, c.first_cell);
+  std::map<LatticePoint, const RefinedColumn*> refined;
+  for (const RefinedColumn& c : plan.columns) refined.emplace(c.low, &c);
   const auto id_of = [&](const Cell& c) {
     const auto at = refined.find({c[0] * size[0], c[1] * size[1]});
-    return at != refined.end() ? HostCellId(at->second.value() + c[2]) : grid.source_cell(c);
+    if (at == refined.end()) return grid.source_cell(c);
+    const ColumnLayers& layers = plan.layers[static_cast<std::size_t>(at->second->layers)];
+    return HostCellId(at->second->first_cell.value() +
+                      layers.place_of(grid.layers().cells[static_cast<std::size_t>(c[2])]));
   };
   const bool turned = host.corners.upside_down;
   std::unordered_map<std::int64_t, VertexId> vertices;

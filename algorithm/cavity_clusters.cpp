@@ -306,6 +306,9 @@ class CavityClusters {
         unite({{std::min(n, other), std::max(n, other)}});
         return false;
       }
+    std::vector<NeededLayers> needed;
+    for (const Cluster& c : clusters_) add_needed(c, unit, needed);
+    trim_layers(plan_, needed);
     return true;
   }
 
@@ -335,6 +338,24 @@ class CavityClusters {
           if (c.grid->is_inside({r[0] + di, r[1] + dj, 0})) columns.insert({r[1] + dj, r[0] + di});
     for (const auto& [j, i] : columns) demand.columns.push_back({i * demand.size[0], j * demand.size[1]});
     return demand;
+  }
+
+  /// The layers of the cavity's cells and of those around them.
+  static void add_needed(const Cluster& c, const LatticePoint& unit, std::vector<NeededLayers>& out) {
+    const NearWellGrid& grid = *c.grid;
+    const LatticePoint size{unit[0] / grid.parts()[0], unit[1] / grid.parts()[1]};
+    const std::int64_t layers = grid.dimensions()[2];
+    std::map<LatticePoint, std::vector<std::uint8_t>> of_column;
+    for (const NearWellCell& r : c.mesh->cavity.removed)
+      for (std::int64_t dj = -1; dj <= 1; ++dj)
+        for (std::int64_t di = -1; di <= 1; ++di) {
+          if (!grid.is_inside({r[0] + di, r[1] + dj, 0})) continue;
+          auto& is_needed = of_column[{(r[0] + di) * size[0], (r[1] + dj) * size[1]}];
+          is_needed.resize(static_cast<std::size_t>(layers), 0);
+          for (std::int64_t k = std::max<std::int64_t>(r[2] - 1, 0); k <= std::min(r[2] + 1, layers - 1); ++k)
+            is_needed[static_cast<std::size_t>(k)] = 1;
+        }
+    for (auto& [low, is_needed] : of_column) out.push_back({low, std::move(is_needed)});
   }
 
   const WellTask& task_;

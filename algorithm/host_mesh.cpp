@@ -392,6 +392,16 @@ void add_faces(Work& work) {
 
 }  // namespace
 
+double HostMesh::volume_of_sources(HostCellId cell) const {
+  if (cell.index() < source_count()) return volume[cell];
+  const std::size_t c = cell.index() - source_count();
+  double sum = 0.0;
+  for (auto p = static_cast<std::size_t>(refined.piece_start[c]);
+       p < static_cast<std::size_t>(refined.piece_start[c + 1]); ++p)
+    sum += refined.piece_fraction[p] * volume[refined.piece_source[p]];
+  return sum;
+}
+
 VertexId HostMesh::corner(HostCellId cell, int di, int dj, int dk) const {
   const auto [nx, ny, nz] = corners.dimensions;
   if (cell.value() >= nx * ny * nz)

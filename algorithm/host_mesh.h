@@ -116,6 +116,9 @@ struct HostMesh {
     return !refined.is_refined.empty() && refined.is_refined[source.index()] != 0;
   }
 
+  /// What a cell has of its source cells' volumes, m3: their parts, of any size, add up to the source cell.
+  [[nodiscard]] double volume_of_sources(HostCellId cell) const;
+
   /// Corner (di, dj, dk), each 0 or 1, of any cell.
   [[nodiscard]] VertexId corner(HostCellId cell, int di, int dj, int dk) const;
   /// All eight, (di, dj, dk) at di + 2 dj + 4 dk.

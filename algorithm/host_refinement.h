@@ -33,9 +33,12 @@ struct ColumnLayers {
 
   /// The source's own layers.
   static ColumnLayers of_source(std::int64_t places);
+  /// Place of a cell from the top. Throws InvalidInput when there is none that begins and ends where it does.
+  [[nodiscard]] std::int64_t place_of(const Cell& cell) const;
 };
 
-/// Columns of one size and one layering that a cavity asks for.
+/// Columns of one size and one layering that a cavity asks for. With layers other than the source's, not all of them
+/// may be needed in each column: trim_layers().
 struct RefinementDemand {
   LatticePoint size{1, 1};            ///< of a column in lattice units, powers of two, at most the plan's unit
   std::vector<LatticePoint> columns;  ///< lowest corners, in lattice units, multiples of size
@@ -65,6 +68,17 @@ struct RefinementPlan {
 /// do not fit the lattice.
 RefinementPlan plan_refinement(const CornerPointGrid& grid, const HostMesh& host, LatticePoint unit,
                                const std::vector<RefinementDemand>& demands);
+
+/// Which of a demand's layers a column needs: from top to base.
+struct NeededLayers {
+  LatticePoint low{};  ///< the column's lowest corner
+  std::vector<std::uint8_t> is_needed;
+};
+
+/// Gives columns of the plan the source's layers where the layers of their demand are not needed. Parts of a layer in
+/// between, beside one that is needed, grow by a factor of two with the distance to it. Columns that are not named stay
+/// as they are; a column that is named twice needs what either asks for.
+void trim_layers(RefinementPlan& plan, const std::vector<NeededLayers>& needed);
 
 /// Splits the host. Afterwards
 /// - host.volume, pore_volume, exists have an element for each refined cell too, after those of the source cells;

@@ -125,6 +125,7 @@ class CavityShape {
     start_ = points_;
     set_scales();
     set_thin();
+    set_edges();
     constexpr std::size_t least_share = 1000;
     constexpr std::size_t most_shares = 4;
     shares_.resize(std::clamp<std::size_t>(faces_.size() / least_share, 1, most_shares));
@@ -238,6 +239,11 @@ class CavityShape {
     std::vector<Vec3> rim_slope;
     std::vector<Vec3> product_slope;
   };
+  struct Edge {
+    std::int32_t a;
+    std::int32_t b;
+    double shortest;  ///< m: it is short below
+  };
   struct VertexPlace {
     VertexId id;
     std::int32_t place;
@@ -331,6 +337,40 @@ class CavityShape {
     }
   }
 
+  /// Edges with an end that moves.
+  void set_edges() {
+    std::unordered_map<std::int64_t, std::size_t> known;
+    for (const Face& face : faces_)
+      for (std::size_t n = 0; n < face.size(); ++n) {
+        const auto [a, b] = std::minmax(loops_[face.begin + n], loops_[face.begin + (n + 1) % face.size()]);
+        if (unknown_[static_cast<std::size_t>(a)] < 0 && unknown_[static_cast<std::size_t>(b)] < 0) continue;
+        const std::int64_t key = a * static_cast<std::int64_t>(points_.size()) + b;
+        const auto [at, is_new] = known.try_emplace(key, edges_.size());
+        if (is_new) edges_.push_back({a, b, 0.0});
+        for (std::size_t side = 0; side < 2; ++side)
+          if (face.is_made[side]) {
+            double& shortest = edges_[at->second].shortest;
+            shortest = std::max(shortest, weights_.shortest * std::cbrt(cells_[cell_at(face.center[side])].volume));
+          }
+      }
+  }
+
+  /// The square of what an edge lacks.
+  double add_edges(Share& w) const {
+    double sum = 0.0;
+    for (const Edge& edge : edges_) {
+      const Vec3 way = point(edge.b) - point(edge.a);
+      const double length = way.norm();
+      const double missing = 1.0 - length / edge.shortest;
+      if (missing <= 0.0 || !(length > 0.0)) continue;
+      sum += weights_.edge * missing * missing;
+      const Vec3 slope = 2.0 * weights_.edge * missing / (edge.shortest * length) * way;
+      slope_at(w, edge.a) += slope;
+      slope_at(w, edge.b) -= slope;
+    }
+    return sum;
+  }
+
   void set_points(const Eigen::VectorXd& x) {
     for (std::size_t p = 0; p < points_.size(); ++p) {
       if (unknown_[p] < 0) continue;
@@ -349,7 +389,7 @@ class CavityShape {
       const std::size_t end = (s + 1) * faces_.size() / shares_.size();
       for (std::size_t f = s * faces_.size() / shares_.size(); f < end; ++f) share.sum += add_face(faces_[f], share);
     });
-    double sum = 0.0;
+    double sum = add_edges(shares_.front());
     for (const Share& share : shares_) sum += share.sum;
     for (std::size_t p = 0; p < points_.size(); ++p) {
       if (unknown_[p] < 0) continue;
@@ -477,6 +517,7 @@ class CavityShape {
   std::vector<std::int32_t> unknown_;        ///< per point, or -1
   std::vector<double> scale_;                ///< m, per point that moves
   std::vector<double> thin_;                 ///< m3, per tetrahedron in the order of faces and sides: t_0
+  std::vector<Edge> edges_;
   std::vector<Share> shares_;
 };
 

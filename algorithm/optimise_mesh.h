@@ -35,8 +35,10 @@ struct OptimisationWeights {
   double large = 2.0;          ///< of the fourth power of an angle (radians), beside its square
   double keep_joint = 2000.0;  ///< of the square of what a joint's squared angle is above what it was
   double keep_inner = 300.0;   ///< the same of an inner face
-  double planarity = 60.0;     ///< of an inner face's squared heights over its plane, relative to its area
+  double planarity = 90.0;     ///< of an inner face's squared heights over its plane, relative to its area
   double barrier = 0.03;       ///< of a tetrahedron between centre and face that gets thin
+  double edge = 0.25;          ///< of an inner edge that gets short
+  double shortest = 0.04;      ///< of the size of the largest cell at an edge: from there on it is short
   int iterations = 150;
 };
 

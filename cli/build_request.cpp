@@ -73,6 +73,11 @@ constexpr std::array<std::pair<std::string_view, FaultPolicy>, 2> fault_policies
 
 constexpr std::array<std::pair<std::string_view, Metric>, 2> metrics{
     {{"geometric", Metric::geometric}, {"permeability", Metric::permeability}}};
+constexpr std::array<std::pair<std::string_view, Optimisation>, 4> optimisations{
+    {{"off", Optimisation::off},
+     {"on", Optimisation::on},
+     {"edges", Optimisation::edges},
+     {"vertices", Optimisation::vertices}}};
 constexpr std::array<std::pair<std::string_view, Fluxes>, 2> flux_kinds{
     {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
 
@@ -112,12 +117,6 @@ int split_parts(const std::string& text) {
   const int parts = count_from(1, text);
   if (parts > 10) throw UsageError(fmt::format("expected 1 to 10, found '{}'", text));
   return parts;
-}
-
-bool is_on(const std::string& text) {
-  if (text == "on") return true;
-  if (text == "off") return false;
-  throw UsageError(fmt::format("expected on or off, found '{}'", text));
 }
 
 bool is_true(const std::string& text) {
@@ -220,8 +219,10 @@ constexpr std::array options{
                 Kind::value, [](BuildRequest& r, const std::string& v) { r.metric = choice(v, metrics); }},
     BuildOption{"mapping", "auto|paper", "How the mapping is made bijective [auto]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.mapping = choice(v, mapping_methods); }},
-    BuildOption{"optimise", "on|off", "Moving of inner vertices and centres for orthogonality [off]", Kind::value,
-                [](BuildRequest& r, const std::string& v) { r.optimise = is_on(v); }},
+    BuildOption{"optimise", "off|on|edges|vertices",
+                "Taking out short edges of transition cells, moving inner vertices and centres for orthogonality, or "
+                "both [off]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.optimise = choice(v, optimisations); }},
     BuildOption{"fluxes", "two-point|consistent",
                 "Fluxes of the mesh file: two-point, or multi-point ones beside them [two-point]", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},
@@ -459,7 +460,7 @@ std::string config_text(const BuildRequest& request) {
   insert(table, "heal-throw", request.heal_throw);
   table.insert("metric", name_in(request.metric.value_or(Metric::geometric), metrics));
   if (request.split.value_or(1) > 1) table.insert("split", *request.split);
-  if (request.optimise) table.insert("optimise", *request.optimise ? "on" : "off");
+  if (request.optimise) table.insert("optimise", name_in(*request.optimise, optimisations));
   if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);
   if (levels > 0)

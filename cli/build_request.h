@@ -70,7 +70,7 @@ struct BuildRequest {
   std::optional<FaultPolicy> fault_policy;
   std::optional<double> heal_throw;  ///< m
   std::optional<Fluxes> fluxes;
-  std::optional<bool> optimise;
+  std::optional<Optimisation> optimise;
   std::optional<Metric> metric;
   std::optional<int> split;
   std::vector<OutputRequest> writes;

@@ -298,7 +298,7 @@ int build(const GivenRequest& given) {
                              request.fault_policy.value_or(FaultPolicy::stop),
                              request.heal_throw,
                              request.fluxes.value_or(Fluxes::two_point),
-                             request.optimise.value_or(false),
+                             request.optimise.value_or(Optimisation::off),
                              request.metric.value_or(Metric::geometric),
                              request.split.value_or(1)};
   progress.next();

@@ -111,6 +111,12 @@ void write_cavities(Text out, const BuildReport& report) {
 }
 
 void write_optimisation(Text out, const BuildSummary& build) {
+  if (build.edge_collapse) {
+    const EdgeCollapse& c = *build.edge_collapse;
+    fmt::format_to(out, "short edges {} to {}; {} and {} taken out; the shortest {:.2g} to {:.2g} of its cell's size\n",
+                   grouped(c.short_before), grouped(c.short_after), counted(c.edges_removed, "edge"),
+                   counted(c.faces_removed, "face"), c.shortest_before, c.shortest_after);
+  }
   if (!build.optimisation) return;
   const MeshOptimisation& o = *build.optimisation;
   fmt::format_to(out,
@@ -195,6 +201,12 @@ Json json_of(const MeshOptimisation& o) {
           {"inner_after", json_of(o.inner_after)},
           {"joints_before", json_of(o.joint_before)},
           {"joints_after", json_of(o.joint_after)}};
+}
+
+Json json_of(const EdgeCollapse& c) {
+  return {{"short_before", c.short_before},       {"short_after", c.short_after},
+          {"edges_removed", c.edges_removed},     {"faces_removed", c.faces_removed},
+          {"shortest_before", c.shortest_before}, {"shortest_after", c.shortest_after}};
 }
 
 Json json_of(const AffineMap& space) {
@@ -288,6 +300,7 @@ std::string to_json(const BuildReport& report) {
   for (const CavitySummary& cavity : report.build.cavities) json["cavities"].push_back(json_of(cavity));
   if (report.build.metric_space) json["metric_space"] = json_of(*report.build.metric_space);
   if (report.build.optimisation) json["optimisation"] = json_of(*report.build.optimisation);
+  if (report.build.edge_collapse) json["optimisation"]["edges"] = json_of(*report.build.edge_collapse);
   json["pore_volume"] = report.pore_volume;
   json["quality"] = Json::parse(report.quality.to_json());
   json["validity"] = Json::parse(to_json(report.build.validity));

@@ -153,7 +153,11 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
       {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
   static constexpr std::array<std::pair<std::string_view, Metric>, 2> metrics{
       {{"geometric", Metric::geometric}, {"permeability", Metric::permeability}}};
-  static constexpr std::array<std::pair<std::string_view, bool>, 2> switches{{{"on", true}, {"off", false}}};
+  static constexpr std::array<std::pair<std::string_view, Optimisation>, 4> optimisations{
+      {{"off", Optimisation::off},
+       {"on", Optimisation::on},
+       {"edges", Optimisation::edges},
+       {"vertices", Optimisation::vertices}}};
   if (option == "mapping")
     options_.mapping = chosen(option, value, mappings);
   else if (option == "fault-policy")
@@ -163,7 +167,7 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
   else if (option == "metric")
     options_.metric = chosen(option, value, metrics);
   else if (option == "optimise")
-    options_.optimise = chosen(option, value, switches);
+    options_.optimise = chosen(option, value, optimisations);
   else if (option == "refine")
     options_.refinement_levels = value == "auto" ? -1 : value == "off" ? 0 : count(option, value, most_levels);
   else if (option == "heal-throw")

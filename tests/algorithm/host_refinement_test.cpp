@@ -147,6 +147,70 @@ TEST(PlanRefinement, RefusesWhatDoesNotFit) {
   EXPECT_NO_THROW(plan({{{1, 1}, {{0, 0}}, merged}, {{1, 1}, {{0, 0}}, merged}}));
 }
 
+/// Levels of a column's cells as pairs of numbers: place and fraction in one.
+std::vector<std::array<double, 2>> levels_of(const ColumnLayers& layers) {
+  std::vector<std::array<double, 2>> out;
+  for (const auto& cell : layers.cells)
+    out.push_back({static_cast<double>(cell.upper.place) + cell.upper.fraction,
+                   static_cast<double>(cell.lower.place) + cell.lower.fraction});
+  return out;
+}
+
+/// A layer in eight parts, four layers in one, a layer as it is.
+ColumnLayers eighths_and_stacks() {
+  ColumnLayers layers;
+  for (int n = 0; n < 8; ++n) layers.cells.push_back({{0, n / 8.0}, {0, (n + 1) / 8.0}});
+  layers.cells.push_back({{1, 0.0}, {4, 1.0}});
+  layers.cells.push_back({{5, 0.0}, {5, 1.0}});
+  return layers;
+}
+
+/// The layers of a demanded column when some are needed.
+std::vector<std::array<double, 2>> trimmed_levels(const std::vector<std::uint8_t>& is_needed) {
+  const auto grid = grids::box({1, 1, 6});
+  const HostMesh host = build_host_mesh(grid);
+  auto plan = plan_refinement(grid, host, {1, 1}, {{{1, 1}, {{0, 0}}, eighths_and_stacks()}});
+  trim_layers(plan, {{{0, 0}, is_needed}});
+  return levels_of(plan.layers[static_cast<std::size_t>(plan.columns.front().layers)]);
+}
+
+TEST(TrimLayers, GivesTheSourcesLayersWhereNoneIsNeeded) {
+  EXPECT_EQ(trimmed_levels({0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), levels_of(ColumnLayers::of_source(6)));
+}
+
+TEST(TrimLayers, LeavesWhatIsNeeded) {
+  EXPECT_EQ(trimmed_levels({1, 1, 1, 1, 1, 1, 1, 1, 1, 1}), levels_of(eighths_and_stacks()));
+}
+
+TEST(TrimLayers, GrowsByTwoAwayFromWhatIsNeeded) {
+  // Below the first eighth: two of them, then four, then the last; stacks are the source's layers.
+  EXPECT_EQ(trimmed_levels({1, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+            (std::vector<std::array<double, 2>>{
+                {0, 0.125}, {0.125, 0.375}, {0.375, 0.875}, {0.875, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}}));
+  // Above the last one: the other way round.
+  EXPECT_EQ(
+      trimmed_levels({0, 0, 0, 0, 0, 0, 0, 1, 1, 1}),
+      (std::vector<std::array<double, 2>>{{0, 0.125}, {0.125, 0.625}, {0.625, 0.875}, {0.875, 1}, {1, 5}, {5, 6}}));
+  // Six between two: three go with each.
+  EXPECT_EQ(trimmed_levels({1, 0, 0, 0, 0, 0, 0, 1, 1, 1}),
+            (std::vector<std::array<double, 2>>{
+                {0, 0.125}, {0.125, 0.375}, {0.375, 0.5}, {0.5, 0.625}, {0.625, 0.875}, {0.875, 1}, {1, 5}, {5, 6}}));
+}
+
+TEST(TrimLayers, AddsUpWhatIsNeededForTwoReasons) {
+  const auto grid = grids::box({1, 1, 6});
+  const HostMesh host = build_host_mesh(grid);
+  auto plan = plan_refinement(grid, host, {1, 1}, {{{1, 1}, {{0, 0}}, eighths_and_stacks()}});
+  const std::vector<std::uint8_t> first{1, 1, 1, 1, 0, 0, 0, 0, 0, 0};
+  const std::vector<std::uint8_t> second{0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+  trim_layers(plan, {{{0, 0}, first}, {{0, 0}, second}});
+  const ColumnLayers& layers = plan.layers[static_cast<std::size_t>(plan.columns.front().layers)];
+  EXPECT_EQ(layers, eighths_and_stacks());
+  EXPECT_EQ(layers.place_of({{1, 0.0}, {4, 1.0}}), 8);
+  EXPECT_THROW((void)layers.place_of({{1, 0.0}, {3, 1.0}}), InvalidInput);
+  EXPECT_THROW(trim_layers(plan, {{{0, 0}, {1}}}), InvalidInput);
+}
+
 // --- The mesh
 // ---------------------------------------------------------------------------------------------------------
 
@@ -176,6 +240,19 @@ void expect_whole_cells(const CornerPointGrid& grid, const HostMesh& before, con
   EXPECT_NEAR(refined_pore_volume, pore_volume, 1e-9 * (1.0 + pore_volume));
 }
 
+void trim_at_random(RefinementPlan& plan, Dice& dice) {
+  std::vector<NeededLayers> needed;
+  for (const RefinedColumn& column : plan.columns) {
+    if (column.layers == 0) continue;
+    NeededLayers of_column{column.low, {}};
+    const double share = dice.chance(0.3) ? 0.0 : 0.4;
+    for (std::size_t k = 0; k < plan.layers[static_cast<std::size_t>(column.layers)].cells.size(); ++k)
+      of_column.is_needed.push_back(dice.chance(share) ? 1 : 0);
+    needed.push_back(std::move(of_column));
+  }
+  trim_layers(plan, needed);
+}
+
 /// Returns the number of refined cells.
 std::size_t expect_watertight(const CornerPointGrid& grid, Dice& dice) {
   HostMesh before;
@@ -187,6 +264,7 @@ std::size_t expect_watertight(const CornerPointGrid& grid, Dice& dice) {
   const auto [unit, demands] = random_demands(grid, dice);
   HostMesh host = before;
   auto plan = plan_refinement(grid, host, unit, demands);
+  if (dice.chance(0.5)) trim_at_random(plan, dice);
   refine_host(grid, plan, host);
   if (plan.empty()) return 0;
   sizes_of(grid, plan);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "algorithm/build_mesh.h"
 #include "model/errors.h"
@@ -37,6 +38,43 @@ TEST(SplitColumns, KeepsVolumesAndCloses) {
       EXPECT_NEAR(volume / expected, 1.0, 1e-12) << name;
       EXPECT_LE(check_mesh(result.mesh).size(), check_mesh(whole.mesh).size()) << name;
       for (const CellKind kind : result.mesh.cells.kind.raw()) EXPECT_EQ(kind, CellKind::refined) << name;
+    }
+  }
+}
+
+/// Pillars that lean to all sides: the straight lines between them are not those of a trilinear cell.
+CornerPointGrid leaning() {
+  CornerPointGrid grid = grids::box({4, 3, 5});
+  for (std::size_t p = 0; p < grid.coord.size() / 6; ++p) {
+    double* const pillar = grid.coord.data() + 6 * p;
+    pillar[3] += 4.0 * std::sin(1.7 * static_cast<double>(p));
+    pillar[4] += 6.0 * std::cos(2.3 * static_cast<double>(p));
+  }
+  // Dipping horizons: corners of one cell are at different depths.
+  for (std::size_t n = 0; n < grid.zcorn.size(); ++n) {
+    const std::size_t along = n % 8;  // two corners for each of four cells along i
+    grid.zcorn[n] += 3.0 * static_cast<double>((along + 1) / 2);
+  }
+  return grid;
+}
+
+TEST(SplitColumns, KeepsTheBulkVolumeWherePillarsLean) {
+  const CornerPointGrid grid = leaning();
+  const auto volume_of = [](const BuildResult& result) {
+    const auto& volume = result.mesh.cells.volume.raw();
+    return std::accumulate(volume.begin(), volume.end(), 0.0);
+  };
+  const double expected = volume_of(split(grid, {}, 1));
+  for (const int parts : {2, 5}) {
+    const BuildResult result = split(grid, {}, parts);
+    EXPECT_NEAR(volume_of(result) / expected, 1.0, 1e-12);
+    // Cell by cell too: what a source cell's parts have is its own volume.
+    const Transfer& transfer = result.mesh.transfer;
+    for (std::size_t c = 0; c + 1 < transfer.start.size(); ++c) {
+      double sum = 0.0;
+      for (std::int64_t at = transfer.start[c]; at < transfer.start[c + 1]; ++at)
+        sum += result.mesh.cells.volume[transfer.cell[static_cast<std::size_t>(at)]];
+      EXPECT_NEAR(sum / result.mesh.source_volumes.bulk[c], 1.0, 1e-12);
     }
   }
 }

@@ -17,7 +17,7 @@ class Options(Case):
     def test_options_of_build(self):
         for words, arguments in {
             "expected true or false, found 'maybe'": ["flag.toml"],
-            "expected on or off, found 'often'": ["--optimise", "often"],
+            "expected one of off, on, edges, vertices, found 'often'": ["--optimise", "often"],
             "expected FILE[,key=value...], found ''": ["--well", ""],
             "expected key=value, found 'sectors'": ["--well", "well.csv,name=A,sectors"],
             "expected a name without spaces, quotes and slashes, found 'a/b'": ["--well", "well.csv,name=a/b"],

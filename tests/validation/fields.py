@@ -85,12 +85,8 @@ def solve(program, mesh, wells, with_sides):
     return {w["name"]: w["rate_m3_per_day"] for w in report["wells"]}
 
 
-def compare(program, shared, name, finer=(4, 5)):
-    """{mesh: {cells, closed: {well: rate}, sides: {well: rate}}} for knit, corner_point and refined grids."""
-    grid, deck_mesh = read_grid(program, shared, name)
-    wells = read_wells(deck_mesh)
-    case = program.folder / "field.GRDECL"
-    hosts.write_grdecl(grid, case)
+def well_options(program, wells):
+    """`--well` options, with the paths in files."""
     options = []
     for n, well in enumerate(wells):
         path = program.folder / f"field{n}.csv"
@@ -99,25 +95,64 @@ def compare(program, shared, name, finer=(4, 5)):
             out.writelines("%.9g,%.9g,%.9g,%.9g\n" % tuple(row) for row in well["path"])
         keys = f"name={well['name']},bore={well['bore']:.9g},from={well['open'][0]:.9g},to={well['open'][1]:.9g}"
         options += ["--well", f"{path},{keys}"]
-    out = {}
+    return options
+
+
+def with_peaceman(program, grid, wells, mesh, is_across_layers=False):
+    """The mesh of a corner-point grid, its wells in its cells."""
+    case = program.folder / "field.GRDECL"
+    hosts.write_grdecl(grid, case)
+    program.build(case, mesh)
+    for well in wells:
+        host_wells.add_well(mesh, grid, well["name"], well["path"], well["bore"], [well["open"]], well["is_injector"],
+                            is_across_layers)
+    return mesh
+
+
+def solved(program, mesh, wells):
+    return {"cells": cells_of(mesh), "closed": solve(program, mesh, wells, False),
+            "sides": solve(program, mesh, wells, True)}
+
+
+def compare(program, shared, name, finer=(4, 5)):
+    """{mesh: {cells, closed: {well: rate}, sides: {well: rate}}} for knit, corner_point and refined grids."""
+    grid, deck_mesh = read_grid(program, shared, name)
+    wells = read_wells(deck_mesh)
+    case = program.folder / "field.GRDECL"
+    hosts.write_grdecl(grid, case)
     mesh = program.folder / f"{name}_knit.h5"
-    report = program.build(case, mesh, "--radius", MODELS[name][3], *options)
+    report = program.build(case, mesh, "--radius", MODELS[name][3], *well_options(program, wells))
     tubes = {w["name"]: [w["mode"], w["drainage_radius"], w["index_connections"]] for w in report["wells"]}
-    out["knit"] = {"cells": cells_of(mesh), "wells": tubes}
-    made = {"knit": mesh}
+    out = {"knit": {**solved(program, mesh, wells), "wells": tubes}}
     for parts in (1, *finer):
         key = "corner_point" if parts == 1 else f"finer{parts}"
         fine = hosts.split_columns(grid, parts)
+        mesh = with_peaceman(program, fine, wells, program.folder / f"{name}_{key}.h5")
+        out[key] = solved(program, mesh, wells)
+    return out
+
+
+def compare_hosts(program, shared, name, finer=3, radius=12.0, references=(5, 7)):
+    """The same in the model's columns and in columns `finer` times as fine, with our meshes and with Peaceman's wells;
+    references with his index and with that of a bore across dipping layers."""
+    grid, deck_mesh = read_grid(program, shared, name)
+    wells = read_wells(deck_mesh)
+    options = well_options(program, wells)
+    case = program.folder / "field.GRDECL"
+    out = {}
+    for parts, r in ((1, MODELS[name][3]), (finer, radius)):
+        fine = hosts.split_columns(grid, parts)
+        mesh = with_peaceman(program, fine, wells, program.folder / f"{name}_{parts}_peaceman.h5")
+        out[f"{parts} peaceman"] = solved(program, mesh, wells)
         hosts.write_grdecl(fine, case)
-        made[key] = program.folder / f"{name}_{key}.h5"
-        program.build(case, made[key])
-        for well in wells:
-            host_wells.add_well(made[key], fine, well["name"], well["path"], well["bore"], [well["open"]],
-                                well["is_injector"])
-        out[key] = {"cells": cells_of(made[key])}
-    for key, path in made.items():
-        out[key]["closed"] = solve(program, path, wells, False)
-        out[key]["sides"] = solve(program, path, wells, True)
+        mesh = program.folder / f"{name}_{parts}_knit.h5"
+        program.build(case, mesh, "--radius", r, *options)
+        out[f"{parts} knit"] = solved(program, mesh, wells)
+    for parts in references:
+        fine = hosts.split_columns(grid, parts)
+        for is_across_layers in (False, True):
+            mesh = with_peaceman(program, fine, wells, program.folder / f"{name}_{parts}.h5", is_across_layers)
+            out[f"{parts} across" if is_across_layers else f"{parts} peaceman"] = solved(program, mesh, wells)
     return out
 
 

@@ -103,8 +103,20 @@ def peaceman_index(size, permeability, share, bore, skin=0.0):
     return float(np.linalg.norm(index))
 
 
-def add_well(mesh, grid, name, path, bore, ranges=None, is_injector=False):
-    """Adds a well in host cells to the mesh file of the grid itself."""
+def across_layers(grid, i, j, k, permeability, direction):
+    """What a bore that does not stand normal to the layers has of the index of one that does and is as long: the
+    permeability in the plane normal to the bore, of a tensor whose axes are those of the layer."""
+    along = grid.axes(i, j, k)
+    normal = np.cross(along[0], along[1])
+    frame = np.linalg.qr(np.stack([along[0], along[1], normal], 1))[0]
+    tensor = frame @ np.diag(permeability) @ frame.T
+    plane = np.linalg.svd(np.asarray(direction, float)[None, :])[2][1:]
+    return float(np.sqrt(np.linalg.det(plane @ tensor @ plane.T) / (permeability[0] * permeability[1])))
+
+
+def add_well(mesh, grid, name, path, bore, ranges=None, is_injector=False, is_across_layers=False):
+    """Adds a well in host cells to the mesh file of the grid itself. `is_across_layers`: of a straight well about
+    normal to the layers, with the index of across_layers()."""
     shares, depths = shares_along(grid, path, ranges)
     nz, ny, nx = grid.shape
     with h5py.File(mesh, "r+") as file:
@@ -118,6 +130,8 @@ def add_well(mesh, grid, name, path, bore, ranges=None, is_injector=False):
             rock = np.array([grid.values[key][k, j, i] for key in ("PERMX", "PERMY", "PERMZ")]) * MILLIDARCY
             size = grid.cell_size(i, j, k) * (1, 1, net)
             index = peaceman_index(size, rock, share, bore)
+            if is_across_layers and index > 0:
+                index *= across_layers(grid, i, j, k, rock, path[-1, 1:] - path[0, 1:])
             if index > 0:
                 rows.append((cell_of[source], index, depths[i, j, k]))
         names = [n.decode() for n in file["wells_order"][()]] if "wells_order" in file else []

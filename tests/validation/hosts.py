@@ -33,8 +33,8 @@ class Grid:
         weights = np.array([[(1 - s) * (1 - t), s * (1 - t)], [(1 - s) * t, s * t]])
         return (corners * weights).sum(axis=(1, 2)).reshape(-1, 2)
 
-    def cell_size(self, i, j, k):
-        """Peaceman's sizes: between the middles of opposite faces, in plan, in plan and in depth."""
+    def axes(self, i, j, k):
+        """From the middle of one face to that of the opposite one, along i, j and k."""
         z = self.zcorn[2 * k:2 * k + 2, 2 * j:2 * j + 2, 2 * i:2 * i + 2]
         corners = np.empty((2, 2, 2, 3))
         pillars = self.coord[j:j + 2, i:i + 2]
@@ -42,7 +42,11 @@ class Grid:
         share = np.where(height == 0, 0.0, (z - pillars[..., 2]) / np.where(height == 0, 1.0, height))
         corners[..., :2] = pillars[..., :2] + share[..., None] * (pillars[..., 3:5] - pillars[..., :2])
         corners[..., 2] = z
-        along = [np.diff(corners, axis=axis).mean(axis=(0, 1, 2)) for axis in (2, 1, 0)]
+        return [np.diff(corners, axis=axis).mean(axis=(0, 1, 2)) for axis in (2, 1, 0)]
+
+    def cell_size(self, i, j, k):
+        """Peaceman's sizes: between the middles of opposite faces, in plan, in plan and in depth."""
+        along = self.axes(i, j, k)
         return np.array([np.hypot(*along[0][:2]), np.hypot(*along[1][:2]), abs(along[2][2])])
 
 

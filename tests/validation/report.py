@@ -90,6 +90,23 @@ def field(result):
     return table(head, rows) + f"\n\nCells of ours, the corner-point grid, 4 × 4, 5 × 5: {cells}."
 
 
+def field_hosts(result):
+    rows = []
+    names = {"1 knit": "ours, model's columns", "1 peaceman": "Peaceman, model's columns", "3 knit": "ours, 3 × 3",
+             "3 peaceman": "Peaceman, 3 × 3", "5 peaceman": "Peaceman, 5 × 5", "5 across": "bore across layers, 5 × 5"}
+    for key, label in names.items():
+        cells = []
+        for boundary in ("closed", "sides"):
+            for reference in ("7 peaceman", "7 across"):
+                right = result[reference][boundary]
+                errors = [result[key][boundary][w] / q - 1 for w, q in right.items()]
+                nearer = sum(abs(e) < abs(result["1 peaceman"][boundary][w] / q - 1) for e, (w, q) in zip(errors, right.items()))
+                cells.append(f"{percent(sum(errors) / len(errors))} / {percent(sum(map(abs, errors)) / len(errors))} / {nearer}")
+        rows.append([label, f"{result[key]['cells']:,}", *cells])
+    head = ["wells and grid", "cells", *(f"{b}, against {r}" for b in ("closed", "200 bar") for r in ("Peaceman 7 × 7", "across layers 7 × 7"))]
+    return table(head, rows)
+
+
 def pore_volume(result):
     rows = [[model, region, f"{total:.6g}", f"{by_map:.1e}", f"{by_cell:.1e}"]
             for model, regions in result.items() for region, (total, by_map, by_cell) in regions.items()]
@@ -154,7 +171,7 @@ def verdicts(results):
 TABLES = {"thiem": compared, "boundary": compared, "two_wells": compared, "line_wells": compared, "line_wells_metric": ours_alone,
           "layered": compared,
           "attribution": attribution, "patch": patch, "patch_pressure": patch_pressure, "field_SPE9": field,
-          "field_MODEL5": field, "pore_volume": pore_volume}
+          "field_MODEL5": field, "hosts_SPE9": field_hosts, "pore_volume": pore_volume}
 FILES = {"patch_pressure": "patch"}
 
 

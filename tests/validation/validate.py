@@ -43,6 +43,7 @@ RUNS = {
     "patch": lambda program, shared: patch_test.run(program),
     "field_SPE9": lambda program, shared: fields.compare(program, shared, "SPE9"),
     "field_MODEL5": lambda program, shared: fields.compare(program, shared, "MODEL5"),
+    "hosts_SPE9": lambda program, shared: fields.compare_hosts(program, shared, "SPE9"),
     "pore_volume": lambda program, shared: {"MODEL5": pore_volume.model5(program, shared),
                                             "Reek": pore_volume.reek(program, shared)},
 }
