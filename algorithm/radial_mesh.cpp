@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,15 @@ std::vector<double> circle_radii(const RadialOptions& options) {
     if (!(radii[i] > radii[i - 1]))
       throw InvalidInput("the rings' growth leaves some of them without width: choose a growth nearer to 1");
   return radii;
+}
+
+int rings_within(const RadialOptions& options, double smaller_radius) {
+  if (!(smaller_radius < options.drainage_radius)) return options.rings;
+  const auto radii = circle_radii(options);
+  const auto apart = [&](double radius) { return std::abs(std::log(radius / smaller_radius)); };
+  const auto nearest =
+      std::min_element(radii.begin() + 1, radii.end(), [&](double a, double b) { return apart(a) < apart(b); });
+  return static_cast<int>(nearest - radii.begin());
 }
 
 std::vector<RingFrame> sweep_frames(std::span<const Vec3> stations, std::span<const Vec3> tangents) {

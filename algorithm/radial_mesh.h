@@ -45,6 +45,9 @@ struct RadialMesh {
 /// without it the radii are in geometric progression. Throws InvalidInput for radii, counts or a growth that make no
 /// rings.
 std::vector<double> circle_radii(const RadialOptions& options);
+/// How many of these rings go into a tube of a smaller radius: that of the circle that is nearest to it, by ratio. The
+/// smaller tube's rings then grow about as those of the larger one. At least 1.
+int rings_within(const RadialOptions& options, double smaller_radius);
 
 /// Frames along the stations: frame k+1 is the mirror image of frame k in the perpendicular bisector plane of their
 /// chord, so that all lateral faces are isosceles trapezoids and the frame does not twist. The first normal is the one

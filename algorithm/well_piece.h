@@ -14,6 +14,7 @@
 
 #include "algorithm/build_mesh.h"
 #include "algorithm/near_well_grid.h"
+#include "algorithm/radial_mesh.h"
 #include "algorithm/transition_mesh.h"
 #include "algorithm/well_sample.h"
 
@@ -28,9 +29,11 @@ struct WellTask {
   const BuildOptions& options;
   std::vector<WellSample> samples;  ///< per well
 
+  /// A tube of a smaller radius has fewer rings, which grow as those that were asked for.
   [[nodiscard]] Well with_radius(std::size_t w, double radius) const {
     Well well = wells[w];
     well.radial.drainage_radius = radius;
+    well.radial.rings = rings_within(wells[w].radial, radius);
     return well;
   }
 };

@@ -48,6 +48,20 @@ TEST(RadialMesh, WidthsGrowByTheFactorGiven) {
   EXPECT_NEAR(circle_radii(options)[2], 4.0, 1e-12);
 }
 
+TEST(RadialMesh, SmallerTubesHaveFewerRings) {
+  RadialOptions options;
+  options.bore_radius = 0.1;
+  options.drainage_radius = 12.8;
+  options.rings = 7;  // circles at 0.1, 0.2, 0.4 … 12.8
+  EXPECT_EQ(rings_within(options, 12.8), 7);
+  EXPECT_EQ(rings_within(options, 20.0), 7);
+  EXPECT_EQ(rings_within(options, 1.7), 4);   // 1.6 is the nearest
+  EXPECT_EQ(rings_within(options, 0.5), 2);   // 0.4 by a ratio of 1.25, 0.8 by 1.6
+  EXPECT_EQ(rings_within(options, 0.11), 1);  // at least one
+  options.growth = 1.0;                       // circles 12.7 / 7 = 1.81 apart
+  EXPECT_EQ(rings_within(options, 6.0), 3);   // 5.54 by a ratio of 1.08, 7.36 by 1.23
+}
+
 TEST(RadialMesh, RefusesRadiiThatMakeNoRings) {
   RadialOptions options;
   options.bore_radius = -0.1;
