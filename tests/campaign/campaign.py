@@ -27,6 +27,9 @@ import time
 import numpy as np
 
 
+LONGEST = 1500.0  # m in plan, from a well's entry into the reservoir to its end
+
+
 class Model:
     """A grid whose pillars lean, whose layers are folded, thrown, pinched out and partly inactive."""
 
@@ -134,7 +137,9 @@ class Model:
             top, base = self.point(*middle, 0), self.point(*middle, 1)
             points = np.array([top[0], top[1], 0]) + (top[2] + s * (base[2] - top[2])) * np.array([[0, 0, 1]])
         else:
-            other = np.clip(middle + rng.uniform(0.1, 0.35) * np.array([np.cos(a := rng.uniform(0, 2 * np.pi)), np.sin(a)]), 0.08, 0.92)
+            step = rng.uniform(0.1, 0.35) * np.array([np.cos(a := rng.uniform(0, 2 * np.pi)), np.sin(a)])
+            step *= min(1.0, LONGEST / np.hypot(*(step * self.size[:2])))
+            other = np.clip(middle + step, 0.08, 0.92)
             ends = (0.5, 0.5) if kind == "horizontal" else (0.02, 0.98)
             begin, end = self.point(*middle, ends[0]), self.point(*other, ends[1])
             if kind == "s-shaped":
