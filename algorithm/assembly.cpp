@@ -310,7 +310,7 @@ class Assembler {
       if (b.kind == BoundaryFaceKind::host) {
         const CavityWall* wall = walls_.find(index, static_cast<std::size_t>(c.boundary_face[f]));
         if (wall != nullptr && !wall->is_plain) return add_wall(index, cell(face.cell), *wall, loop);
-        const HostCellId outside = wall != nullptr ? beyond(*wall) : b.outside_cell;
+        const HostCellId outside = wall != nullptr ? beyond(*wall) : beside(c.cavity, b);
         other = outside.is_valid() ? out_.cell_of[outside] : no_cell;
         info = wall_info(b, outside, wall);
       } else {
@@ -327,6 +327,18 @@ class Assembler {
   [[nodiscard]] HostCellId beyond(const CavityWall& wall) const {
     const auto [a, b] = host_.faces.cells[wall.faces.front()];
     return a == wall.removed ? b : a;
+  }
+
+  /// The cell on the other side of a boundary face that the host has no face for: the one with the same corners. Where
+  /// a removed cell is inactive and stands on a fault, the cell beyond may lie wholly above or below it.
+  [[nodiscard]] HostCellId beside(const Cavity& cavity, const BoundaryFace& b) const {
+    if (!b.outside_cell.is_valid()) return {};
+    const auto corners = host_.corners_of(b.outside_cell);
+    const bool is_there = std::all_of(b.loop.begin(), b.loop.end(), [&](std::int32_t v) {
+      const VertexId corner = cavity.vertices[static_cast<std::size_t>(v)].host;
+      return std::find(corners.begin(), corners.end(), corner) != corners.end();
+    });
+    return is_there ? b.outside_cell : HostCellId{};
   }
 
   [[nodiscard]] FaceInfo wall_info(const BoundaryFace& b, HostCellId outside, const CavityWall* wall) const {

@@ -279,6 +279,19 @@ TEST(BuildMesh, AFaultsTipBesideTheWallIsNotCutOpen) {
   }
 }
 
+/// Removed cells that do not exist stand at a fault above the top of the cells beyond it, which they are not beside.
+TEST(BuildMesh, ACavityThatEndsInInactiveCellsAtAFaultCloses) {
+  Case source;
+  source.grid = grids::faulted({12, 12, 8}, 7.0);  // a layer and a half; the fault is the plane x = 60
+  for (std::int64_t j = 0; j < 12; ++j) source.grid.active[source.grid.cell_id(5, j, 0).index()] = 0;
+  Well well = near_well::straight("I", {51.0, 121.0, 990.0}, {51.0, 121.0, 1050.0});
+  well.radial.drainage_radius = 4.5;
+  well.radial.mode = MeshMode::layered;
+  const BuildResult result = build_mesh(source, {well}, {});
+  EXPECT_TRUE(result.summary.wells[0].meshed) << result.summary.wells[0].reason;
+  EXPECT_EQ(first(violations_of(result.mesh, false)), "");
+}
+
 TEST(BuildMesh, EveryStepIsTimed) {
   const BuildResult result = build_mesh(near_well::deformed(0.0), {near_well::well(Path::curved, 12.0)}, {});
   EXPECT_GE(result.summary.times.size(), 5U);
