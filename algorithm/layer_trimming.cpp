@@ -94,8 +94,8 @@ ColumnLayers trimmed(const ColumnLayers& all, const std::vector<std::uint8_t>& i
 
 std::int64_t ColumnLayers::place_of(const Cell& cell) const {
   const auto key = [](const Cell& c) { return std::tie(c.upper.place, c.upper.fraction); };
-  const auto at = std::lower_bound(cells.begin(), cells.end(), cell,
-                                   [&](const Cell& a, const Cell& b) { return key(a) < key(b); });
+  const auto at =
+      std::lower_bound(cells.begin(), cells.end(), cell, [&](const Cell& a, const Cell& b) { return key(a) < key(b); });
   if (at == cells.end() || *at != cell) throw InvalidInput("a column does not have a layer that a cavity lies in");
   return at - cells.begin();
 }
