@@ -169,7 +169,8 @@ class Builder {
       Assembly assembly = assemble(*mesh_grid_, host_, cavities_);
       clock_.lap("assembly");
       if (assembly.unsound_cells.empty()) return assembly;
-      for (const CellId cell : assembly.unsound_cells) leave_out_beside(assembly.mesh.cells.center[cell], left_out);
+      for (const CellId cell : assembly.unsound_cells)
+        note_open_mesh(cavities_, assembly.mesh.cells.center[cell], left_out);
       host_ = build_host_mesh(*mesh_grid_);
       clock_.lap("host grid");
     }
@@ -186,25 +187,6 @@ class Builder {
     for (MeshedCavity& c : meshed.cavities) {
       near_well_grids_.push_back(std::move(c.grid));
       cavities_.push_back(std::move(c.mesh));
-    }
-  }
-
-  /// The wells of the cavity nearest to a point.
-  void leave_out_beside(const Vec3& point, std::map<std::size_t, std::string>& left_out) const {
-    const TransitionMesh* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (const TransitionMesh& c : cavities_)
-      for (const CavityVertex& v : c.cavity.vertices)
-        if (const double d = (v.real - point).squaredNorm(); d < least) {
-          least = d;
-          nearest = &c;
-        }
-    for (const Tube& t : nearest->cavity.tubes) {
-      const Vec3 p = t.space.from(point);
-      left_out.emplace(t.well,
-                       fmt::format("the mesh around it would not close at ({:.1f}, {:.1f}, {:.1f}); please send "
-                                   "this case to the authors",
-                                   p.x(), p.y(), p.z()));
     }
   }
 

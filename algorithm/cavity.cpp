@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -332,17 +333,16 @@ std::string cell_name(const NearWellGrid& grid, const Cell& c) {
   return fmt::format("({}, {}, {})", i + 1, j + 1, k + 1);
 }
 
-/// Why no more cells could be removed.
+/// Why no more cells could be removed. A face that is not admissible and gives no reason asks for a cell, behind it or
+/// at a vertex of the boundary, that is still there: it was taken or something keeps it.
 NoCavity blocked(const HostFrame& frame, const Cavity& cavity, const RemovedCells& removed) {
-  if (removed.blocked()) {
-    const Box box = frame.space.box(*removed.blocked());
-    return {fmt::format("a fault, a gap or a place without thickness at cell {} is too close to its tube",
-                        cell_name(frame.grid, *removed.blocked())),
-            all_tubes(cavity),
-            false,
-            {nearest_place(cavity.tubes, 0.5 * (box.low + box.high))}};
-  }
-  return {"its tube comes too close to a corner of the cavity that cannot be removed", all_tubes(cavity)};
+  if (!removed.blocked()) throw std::logic_error("a cavity stayed as it was, and nothing keeps its cells");
+  const Box box = frame.space.box(*removed.blocked());
+  return {fmt::format("a fault, a gap or a place without thickness at cell {} is too close to its tube",
+                      cell_name(frame.grid, *removed.blocked())),
+          all_tubes(cavity),
+          false,
+          {nearest_place(cavity.tubes, 0.5 * (box.low + box.high))}};
 }
 
 /// Least distance of two segments, by their ends and by the interior minimum.
@@ -487,13 +487,12 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
   const bool in_columns =
       std::all_of(cavity.tubes.begin(), cavity.tubes.end(), [](const Tube& t) { return t.layered; });
   for (const Tube& tube : cavity.tubes) remove_cells_around_tube(frame, tube, options.dilation, in_columns, removed);
-  constexpr std::int64_t most_rounds = 60;
   for (cavity.rounds = 1;; ++cavity.rounds) {
     make_closed(frame.grid, in_columns, removed);
-    if (cavity.rounds > most_rounds)
-      return NoCavity{
-          fmt::format("no cavity was found in {} rounds of removing cells ({} removed)", most_rounds, removed.count()),
-          all_tubes(cavity)};
+    if (cavity.rounds > options.most_rounds)
+      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed)",
+                                  options.most_rounds, removed.count()),
+                      all_tubes(cavity)};
     if (removed.count() > options.most_cells)
       return NoCavity{fmt::format("its cavity would swallow {} cells", removed.count()), all_tubes(cavity)};
     cavity.removed = removed.list();

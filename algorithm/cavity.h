@@ -103,6 +103,7 @@ struct CavityOptions {
   /// keeps them; a width is the larger of half the radius and a cell.
   int dilation = 0;
   std::int64_t most_cells = 120000;  ///< removed; beyond it the well needs a refined host
+  std::int64_t most_rounds = 60;     ///< of removing; each takes a cell or more, and few need ten
 };
 
 /// Removes cells until every boundary face is admissible and can hold its site.

@@ -19,15 +19,15 @@ namespace {
 
 class CavityClusters {
  public:
-  CavityClusters(const WellTask& task, std::vector<Cluster>& clusters, std::vector<std::string>& reasons)
-      : task_(task), clusters_(clusters), reasons_(reasons) {}
+  CavityClusters(const WellTask& task, std::vector<Cluster>& clusters, std::vector<std::string>& reasons,
+                 int most_rounds)
+      : task_(task), clusters_(clusters), reasons_(reasons), most_rounds_(most_rounds) {}
 
   /// Cavities that stand in the same columns get the same cells; those that touch become one. Bounded: what is still
   /// in another's way then gives way.
   RefinementPlan run() {
-    constexpr int most_rounds = 12;
     for (int round = 0;; ++round) {
-      if (round == most_rounds && !clusters_.empty()) {
+      if (round >= most_rounds_ && !clusters_.empty()) {
         for (const Piece& p : clusters_.back().pieces)
           if (reasons_[p.well].empty()) reasons_[p.well] = "its cavity stays in another one's way";
         clusters_.pop_back();
@@ -361,6 +361,7 @@ class CavityClusters {
   const WellTask& task_;
   std::vector<Cluster>& clusters_;
   std::vector<std::string>& reasons_;
+  int most_rounds_;
   RefinementPlan plan_;
   int companies_ = 0;
 };
@@ -368,8 +369,8 @@ class CavityClusters {
 }  // namespace
 
 RefinementPlan resolve_conflicts(const WellTask& task, std::vector<Cluster>& clusters,
-                                 std::vector<std::string>& reasons) {
-  return CavityClusters(task, clusters, reasons).run();
+                                 std::vector<std::string>& reasons, int most_rounds) {
+  return CavityClusters(task, clusters, reasons, most_rounds).run();
 }
 
 }  // namespace wellknit

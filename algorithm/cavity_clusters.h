@@ -13,9 +13,10 @@
 
 namespace wellknit {
 
-/// Changes the clusters until none is in another's way, and returns how the host must be refined for them. Bounded:
-/// what is still in another's way at the end gives way. `reasons`, per well: the first why a piece gave way.
+/// Changes the clusters until none is in another's way, and returns how the host must be refined for them. After
+/// `most_rounds` the last cluster gives way, and the count begins anew. `reasons`, per well: the first why a piece gave
+/// way.
 RefinementPlan resolve_conflicts(const WellTask& task, std::vector<Cluster>& clusters,
-                                 std::vector<std::string>& reasons);
+                                 std::vector<std::string>& reasons, int most_rounds = 12);
 
 }  // namespace wellknit

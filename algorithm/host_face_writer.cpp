@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "model/errors.h"
+#include "algorithm/id_limit.h"
 
 namespace wellknit {
 
@@ -34,8 +34,7 @@ void append(LargeArray<T>& all, const LargeArray<T>& more) {
 }  // namespace
 
 void append_faces(HostFaces& all, const HostFaces& more) {
-  if (all.size() + more.size() > static_cast<std::size_t>(max_ids))
-    throw InvalidInput("the grid has too many parts of faces to be numbered; check ZCORN");
+  require_ids(all.size() + more.size(), "face parts");
   const auto shift = static_cast<std::int64_t>(all.vertices.size());
   std::transform(more.vertex_start.begin() + 1, more.vertex_start.end(), std::back_inserter(all.vertex_start),
                  [&](std::int64_t start) { return start + shift; });

@@ -24,6 +24,7 @@
 #include "algorithm/host_pillars.h"
 #include "algorithm/host_row.h"
 #include "algorithm/host_strip.h"
+#include "algorithm/id_limit.h"
 #include "algorithm/ordered_pipeline.h"
 #include "algorithm/source_pore_volume.h"
 #include "model/errors.h"
@@ -195,8 +196,7 @@ void number_crossings(Work& work) {
   std::size_t total = vertices.size();
   for (const auto* rows : {&work.cuts_i, &work.cuts_j})
     for (const StripCuts& row : *rows) total += row.crossings.size();
-  if (total > static_cast<std::size_t>(max_ids))
-    throw InvalidInput("the layers on both sides of faults cross in too many points to be numbered; check ZCORN");
+  require_ids(total, "vertices");
   vertices.reserve(total);
   for (auto* rows : {&work.cuts_i, &work.cuts_j})
     for (StripCuts& row : *rows) {

@@ -20,6 +20,7 @@
 #include "algorithm/host_row.h"
 #include "algorithm/host_strip.h"
 #include "algorithm/host_transmissibility.h"
+#include "algorithm/id_limit.h"
 #include "algorithm/refinement_lattice.h"
 #include "model/errors.h"
 
@@ -436,8 +437,7 @@ void check_layers(const CornerPointGrid& grid, const RefinementPlan& plan) {
 /// Gives the lattice's vertices their ids in the host; new ones are added to it.
 IdVector<VertexId, VertexId> number_vertices(const RefinementLattice& lattice, const IdVector<VertexId, Vec3>& vertices,
                                              HostMesh& host) {
-  if (host.vertices.size() + vertices.size() > static_cast<std::size_t>(max_ids))
-    throw InvalidInput("the refined grid has too many vertices to be numbered; refine less");
+  require_ids(host.vertices.size() + vertices.size(), "vertices");
   IdVector<VertexId, VertexId> in_host(vertices.size());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const VertexId vertex(v);

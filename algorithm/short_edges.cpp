@@ -3,6 +3,8 @@
 
 #include "algorithm/short_edges.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -73,10 +75,13 @@ std::vector<std::int32_t> end_cells(const CellsAtVertices& cells, const std::arr
 
 }  // namespace
 
-bool DiagramTrial::is_sound(const Cavity& cavity) const {
-  return sites.not_centred == 0 && diagram.failure.empty() &&
-         match.found == static_cast<std::int64_t>(cavity.faces.size()) && match.foreign == 0 &&
-         match.volume_error <= 1e-8;
+std::string DiagramTrial::fault(const Cavity& cavity) const {
+  if (sites.not_centred > 0) return fmt::format("{} sites do not lie in their own cells", sites.not_centred);
+  if (!diagram.failure.empty()) return "the power diagram is not sound: " + diagram.failure;
+  const auto boundary_faces = static_cast<std::int64_t>(cavity.faces.size());
+  if (match.found == boundary_faces && match.foreign == 0 && match.volume_error <= 1e-8) return {};
+  return fmt::format("the power diagram gives back {} of {} boundary faces ({} foreign, volume error {:.1e})",
+                     match.found, boundary_faces, match.foreign, match.volume_error);
 }
 
 DiagramTrial try_diagram(const Cavity& cavity, const std::vector<double>& part) {

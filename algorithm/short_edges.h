@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "algorithm/power_diagram.h"
@@ -23,7 +24,9 @@ struct DiagramTrial {
   BoundaryMatch match;
 
   /// All sites centred, every boundary face found as the same vertex set, the cavity filled.
-  [[nodiscard]] bool is_sound(const Cavity& cavity) const;
+  [[nodiscard]] bool is_sound(const Cavity& cavity) const { return fault(cavity).empty(); }
+  /// What of it does not hold; empty when all does.
+  [[nodiscard]] std::string fault(const Cavity& cavity) const;
 };
 
 DiagramTrial try_diagram(const Cavity& cavity, const std::vector<double>& part);

@@ -6,6 +6,10 @@
 /// Source: T. Mouton, C. Bennis, H. Borouchaki (key Mouton).
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -23,6 +27,21 @@ struct TransitionMesh {
   std::vector<std::int32_t> boundary_face;  ///< per face: the boundary face of the cavity that it is, or -1
   CavitySummary summary;
 };
+
+/// A cell that cannot be used.
+struct BadCell {
+  std::string reason;
+  Vec3 center = Vec3::Zero();
+};
+
+/// Mapped sites see their cells where phi is gentle; elsewhere the nearest point that does is taken. Cells that no
+/// point sees are opened first; `is_fixed`, per vertex: it stays. Returns the first that stays unseen.
+std::optional<BadCell> choose_centers(const std::vector<std::uint8_t>& is_fixed, TransitionMesh& mesh);
+
+/// Notes why the wells of the cavity nearest to a point of the finished mesh get no tubes: it does not close there.
+/// `cavities` has one or more; `reasons` is by well, and keeps what it has.
+void note_open_mesh(const std::vector<TransitionMesh>& cavities, const Vec3& point,
+                    std::map<std::size_t, std::string>& reasons);
 
 /// Runs the steps for wells that share a cavity. Where a step fails, the cavity is enlarged and all is tried again,
 /// twice; not if it is to stay `tight`.

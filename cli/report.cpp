@@ -128,12 +128,12 @@ void write_optimisation(Text out, const BuildSummary& build) {
 }
 
 void write_quality(Text out, const QualityReport& quality) {
-  fmt::format_to(out, "quality           faces   non-orthogonality  K-non-orthogonality            planarity\n");
-  fmt::format_to(out, "  mean, max                           degrees              degrees\n");
+  fmt::format_to(out, "quality             faces   non-orthogonality  K-non-orthogonality            planarity\n");
+  fmt::format_to(out, "  mean, max                             degrees              degrees\n");
   for (std::size_t i = 0; i < face_pair_count; ++i) {
     const PairQuality& pair = quality.pairs[i];
     if (pair.faces == 0) continue;
-    fmt::format_to(out, "  {:15} {:>6} {:>9.2f} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2g} {:>9.2g}\n",
+    fmt::format_to(out, "  {:17} {:>6} {:>9.2f} {:>9.2f} {:>10.2f} {:>9.2f} {:>10.2g} {:>9.2g}\n",
                    name_of(static_cast<FacePair>(i)), pair.faces, pair.non_orthogonality.mean,
                    pair.non_orthogonality.max, pair.k_non_orthogonality.mean, pair.k_non_orthogonality.max,
                    pair.planarity.mean, pair.planarity.max);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 #include "algorithm/host_mesh.h"
 #include "algorithm/peaceman.h"
@@ -461,8 +462,7 @@ std::vector<std::string> ScheduleConverter::perforation_lines(const DeckTextKeyw
   const RecordItems items(deck_, keyword, record);
   const auto from = items.real(2);
   const auto to = items.real(3);
-  if (!from || !to || !(*from < *to))
-    items.fail({"a stretch as items 3 and 4, the first above the second", "none", ""});
+  if (!from || !to || !(*from < *to)) throw std::logic_error("COMPTRAJ without a stretch passed the reader");
   if (items.word(4, "MD") != "MD")
     items.fail({"MD as item 5", quoted_for_message(record.text(4)), "state the stretch in measured depth"});
   if (items.positive(8))

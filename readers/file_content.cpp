@@ -60,10 +60,9 @@ class FileDescriptor {
 
 FileContent map_file(const std::string& path) {
   const FileDescriptor file(path);
-  if (file.number() < 0) fail(path, "a readable file", "one that cannot be opened", "check its permissions");
   struct stat status {};
-  if (::fstat(file.number(), &status) != 0)
-    fail(path, "a readable file", "an error of the disk while reading it", "copy the file and try again");
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0)
+    fail(path, "a readable file", "one that cannot be opened", "check its permissions");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size == 0) return {path, {}, nullptr};
   void* const begin = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);

@@ -38,6 +38,10 @@ class MeshFileReader {
     throw ParseError({path_, 0, object}, {std::move(expected), std::move(found), advice});
   }
 
+  [[noreturn]] void fail_to_read(const std::string& object) const {
+    fail(object, "readable data", "data that HDF5 cannot read; the file is damaged");
+  }
+
   /// Every group on the way must be there: HDF5 reports an error for a path through a missing one.
   [[nodiscard]] bool has(const std::string& object) const {
     for (std::size_t slash = object.find('/'); slash != std::string::npos; slash = object.find('/', slash + 1))
@@ -57,7 +61,7 @@ class MeshFileReader {
     check_size(name, set, shape);
     values.resize(static_cast<std::size_t>(shape[0]));
     if (!values.empty() && H5Dread(set.get(), layout.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-      fail(name, "readable data", "data that HDF5 cannot read; the file is damaged");
+      fail_to_read(name);
   }
 
   [[nodiscard]] CellProperty property(const std::string& name) const {
@@ -112,8 +116,7 @@ class MeshFileReader {
     if (found != values.size()) fail(name, fmt::format("{} numbers", values.size()), fmt::format("{}", found));
     const hdf5::Element layout = hdf5::element(values.data());
     if (H5Tget_class(type.get()) != H5Tget_class(layout.memory_type)) fail(name, "numbers of its kind", "another type");
-    if (H5Aread(attribute.get(), layout.memory_type, values.data()) < 0)
-      fail(name, "readable data", "data that HDF5 cannot read");
+    if (H5Aread(attribute.get(), layout.memory_type, values.data()) < 0) fail_to_read(name);
   }
 
   [[nodiscard]] std::vector<std::string> links(const std::string& group) const {
@@ -124,7 +127,7 @@ class MeshFileReader {
     for (hsize_t i = 0; i < info.nlinks; ++i) {
       const ssize_t length =
           H5Lget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
-      if (length < 0) fail(group, "names of its members", "names that HDF5 cannot read; the file is damaged");
+      if (length < 0) fail_to_read(group);
       std::string name(static_cast<std::size_t>(length) + 1, '\0');
       H5Lget_name_by_idx(opened.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
       name.pop_back();
@@ -186,7 +189,7 @@ class MeshFileReader {
     const hssize_t count = H5Sget_simple_extent_npoints(space.get());
     // An attribute lies in its object's header or heap: it cannot have more elements than the file has bytes.
     if (count < 0 || static_cast<std::uintmax_t>(count) > file_size_)
-      fail(name, "a list that fits in the file", fmt::format("{} elements", count));
+      fail(name, "as many values as its shape says", fmt::format("{}", count));
     return static_cast<hsize_t>(count);
   }
 
@@ -231,7 +234,7 @@ class MeshFileReader {
       out.emplace_back(text != nullptr ? text : "");
       H5free_memory(text);
     }
-    if (!done) fail(name, "readable strings", "strings that HDF5 cannot read; the file is damaged");
+    if (!done) fail_to_read(name);
     return out;
   }
 
@@ -242,8 +245,7 @@ class MeshFileReader {
     if (count * length > file_size_)
       fail(name, "strings that fit in the file", fmt::format("{} of {} bytes", count, length));
     std::vector<char> bytes(static_cast<std::size_t>(count) * length);
-    if (read(type.get(), bytes.data()) < 0)
-      fail(name, "readable strings", "strings that HDF5 cannot read; the file is damaged");
+    if (read(type.get(), bytes.data()) < 0) fail_to_read(name);
     std::vector<std::string> out;
     for (std::size_t i = 0; i < count; ++i) out.emplace_back(&bytes[i * length], ::strnlen(&bytes[i * length], length));
     return out;

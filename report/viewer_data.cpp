@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -68,7 +69,7 @@ std::vector<unsigned char> deflated(const std::vector<unsigned char>& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::vector<unsigned char> out(size);
   if (compress2(out.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), level) != Z_OK)
-    throw InvalidInput("the picture's data cannot be packed: there is not enough memory");
+    throw std::bad_alloc();  // with so large an output nothing else can fail
   out.resize(size);
   return out;
 }

@@ -303,8 +303,7 @@ class OpenFoamCase {
     solution.text("solvers\n{\n}\n");
     solution.close();
     // ParaView opens the case by an empty file with this extension.
-    if (!std::ofstream(folder_ + "/case.foam"))
-      throw WriteError(fmt::format("{}: cannot be written: case.foam cannot be opened", shown_path_));
+    TextFile(folder_ + "/case.foam", shown_path_).close();
   }
 
   const Mesh& mesh_;

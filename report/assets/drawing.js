@@ -60,11 +60,12 @@ precision highp float;
 in vec3 position;
 uniform mat4 matrix;
 uniform vec3 stretch;
+uniform float nearer;
 out vec3 place;
 void main() {
   place = position;
   gl_Position = matrix * vec4(position * stretch, 1.0);
-  gl_Position.z -= 0.0002 * gl_Position.w;
+  gl_Position.z -= nearer;
 }`;
 
 const lineFragmentShader = `#version 300 es
@@ -221,7 +222,7 @@ class Drawing {
     });
   }
 
-  // scene: { matrix, stretch, toEye, plane (or null), range, chosen (or null), edges, wells, paper: [r, g, b] }
+  // scene: { matrix, nearer (of edges, in clip space), stretch, toEye, plane (or null), range, chosen (or null), edges, wells, paper: [r, g, b] }
   draw(scene) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -257,6 +258,7 @@ class Drawing {
     const gl = this.gl, u = this.lines.uniforms;
     gl.useProgram(this.lines.program);
     gl.uniformMatrix4fv(u.matrix, false, new Float32Array(scene.matrix));
+    gl.uniform1f(u.nearer, scene.nearer);
     gl.uniform3fv(u.stretch, scene.stretch);
     gl.uniform4fv(u.ink, [0, 0, 0, 0.45]);
     gl.enable(gl.BLEND);

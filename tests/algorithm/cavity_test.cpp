@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
+#include <string>
 
 #include "tests/support/grids.h"
 #include "tests/support/near_well.h"
@@ -119,6 +122,89 @@ TEST(Cavity, GrowsWhenAskedTo) {
   CavityOptions wide;
   wide.dilation = 1;
   EXPECT_GT(setting.cavity(wide).removed.size(), setting.cavity().removed.size());
+}
+
+/// A swept tube of 12 m along x through the box grid, from (270, y) to (530, y).
+Tube horizontal_tube(const near_well::Setting& setting, double y, double depth) {
+  Well well = near_well::straight("H", {270.0, y, depth}, {530.0, y, depth});
+  well.radial.drainage_radius = 12.0;
+  return std::get<Tube>(build_swept_tube(setting.frame(), well, {0.0, 260.0}));
+}
+
+std::string refusal(const near_well::Setting& setting, std::vector<Tube> tubes, const CavityOptions& options = {}) {
+  const auto made = build_cavity(setting.frame(), std::move(tubes), options);
+  const auto* none = std::get_if<NoCavity>(&made);
+  return none == nullptr ? "none" : none->reason;
+}
+
+TEST(Cavity, RefusesATubeThatAllButTouchesTheTop) {
+  // The top is at 2000 m: one metre is left above the tube, a twelfth of its radius where a fifth is asked for.
+  const near_well::Setting setting(near_well::deformed(0.0).grid);
+  EXPECT_EQ(refusal(setting, {horizontal_tube(setting, 400.0, 2013.0)}),
+            "its tube comes too close to the top, base or a side of the grid");
+  EXPECT_EQ(refusal(setting, {horizontal_tube(setting, 400.0, 2015.0)}), "none");
+}
+
+TEST(Cavity, RefusesTwoTubesThatAllButTouch) {
+  const near_well::Setting setting(near_well::deformed(0.0).grid);
+  const Tube first = horizontal_tube(setting, 400.0, 2090.0);
+  EXPECT_EQ(refusal(setting, {first, horizontal_tube(setting, 425.0, 2090.0)}),
+            "its tube comes too close to another one");
+  EXPECT_EQ(refusal(setting, {first, horizontal_tube(setting, 432.0, 2090.0)}), "none");
+}
+
+TEST(Cavity, RefusesATubeWhoseEndsAllButTouch) {
+  // All but a circle of 60 m: of 356 degrees the ends are 2 x 60 m x sin 2 degrees = 4.2 m apart, of 340 degrees 21 m.
+  const near_well::Setting setting(near_well::deformed(0.0).grid);
+  const auto ring = [&](double degrees) {
+    Well well;
+    well.name = "O";
+    for (int k = 0; k <= 90; ++k) {
+      const double angle = degrees * k / 90.0 * std::numbers::pi / 180.0;
+      well.trajectory.points.push_back({400.0 + 60.0 * std::cos(angle), 400.0 + 60.0 * std::sin(angle), 2090.0});
+      well.trajectory.measured_depth.push_back(60.0 * angle);
+    }
+    well.radial.drainage_radius = 12.0;
+    return std::get<Tube>(build_swept_tube(setting.frame(), well, {0.0, well.trajectory.measured_depth.back()}));
+  };
+  EXPECT_EQ(refusal(setting, {ring(356.0)}), "its tube comes too close to itself");
+  EXPECT_EQ(refusal(setting, {ring(340.0)}), "none");
+}
+
+TEST(Cavity, IsGivenUpBeyondItsLimits) {
+  const near_well::Setting setting(near_well::deformed(0.0).grid);
+  const Tube tube = horizontal_tube(setting, 400.0, 2090.0);
+  CavityOptions options;
+  options.most_rounds = 1;
+  EXPECT_EQ(refusal(setting, {tube}, options).find("no cavity was found in 1 rounds of removing cells ("), 0U);
+  options = {};
+  options.most_cells = 10;
+  EXPECT_EQ(refusal(setting, {tube}, options).find("its cavity would swallow "), 0U);
+}
+
+TEST(Cavity, RefusesAFaultThatEndsInsideItself) {
+  // Columns i >= 5 are thrown by 3 m at j = 0, by 1 m at j = 2, and by nothing from j = 3 on; the throw also dies out
+  // along i. A tube passes the fault's end, and the cells around it are taken on both sides.
+  grids::Recipe recipe;
+  recipe.dimensions = {10, 8, 8};
+  recipe.pillar = [](std::int64_t i, std::int64_t j) {
+    const Vec3 top(10.0 * static_cast<double>(i), 20.0 * static_cast<double>(j), 900.0);
+    return std::array<Vec3, 2>{top, top + Vec3(0.0, 0.0, 300.0)};
+  };
+  recipe.depth = [](std::array<std::int64_t, 3> cell, std::array<int, 3> corner) {
+    const auto at = [&](std::size_t axis) { return static_cast<double>(cell[axis] + corner[axis]); };
+    const double thrown = cell[0] >= 5 ? std::max(0.0, 3.0 - at(1)) * (10.0 - at(0)) / 5.0 : 0.0;
+    return 1000.0 + 5.0 * at(2) + thrown;
+  };
+  const near_well::Setting setting(grids::make(recipe));
+  const Vec3 from(24.0, 92.0, 1024.0);
+  const Vec3 to(51.0, 80.0, 1019.0);
+  Well well = near_well::straight("F", from, to);
+  well.radial.drainage_radius = 4.0;
+  const auto tube = build_swept_tube(setting.frame(), well, {0.0, (to - from).norm()});
+  CavityOptions wide;
+  wide.dilation = 1;
+  EXPECT_EQ(refusal(setting, {std::get<Tube>(tube)}, wide), "a fault ends inside its cavity, at cell (5, 3, 4)");
 }
 
 TEST(Cavity, RefusesAFaultInsideItself) {

@@ -98,5 +98,53 @@ TEST(CellOpening, MergesACellThatNoMoveOpens) {
   EXPECT_EQ(mesh.faces.size(), mesh.boundary_face.size());
 }
 
+/// One box of 1 m whose side at x = 1 is four triangles to an apex; all of its vertices are on the boundary.
+TransitionMesh box_with_apex(double x) {
+  TransitionMesh mesh;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k < 2; ++k) mesh.vertices.emplace_back(i, j, k);
+  mesh.vertices.emplace_back(x, 0.5, 0.5);
+  mesh.centers.emplace_back(0.5, 0.5, 0.5);
+  const std::vector<std::vector<std::int32_t>> loops{
+      {0, 1, 3, 2}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}, {4, 6, 8}, {6, 7, 8}, {7, 5, 8}, {5, 4, 8}};
+  for (const auto& loop : loops) {
+    mesh.faces.push_back({loop, 0, DiagramFace::Other::outer, 0});
+    mesh.boundary_face.push_back(0);
+  }
+  return mesh;
+}
+
+std::string reason_of(TransitionMesh mesh) {
+  const std::vector<std::uint8_t> is_fixed(mesh.vertices.size(), 1);
+  const auto bad = choose_centers(is_fixed, mesh);
+  return bad ? bad->reason : "none";
+}
+
+TEST(ChooseCenters, SaysWhichCellCannotBeUsed) {
+  EXPECT_EQ(reason_of(box_with_apex(1.0)), "none");
+  // Beyond the far side: the triangles are seen from behind it alone. The volume is 1 - 1.1 / 3 m3.
+  EXPECT_EQ(reason_of(box_with_apex(-0.1)),
+            "a transition cell near (0.5, 0.5, 0.5) is seen whole from no point after the mapping");
+  EXPECT_EQ(reason_of(box_with_apex(-3.0)),  // 1 - 4 / 3 m3
+            "a transition cell near (0.5, 0.5, 0.5) is inside out after the mapping");
+}
+
+TEST(OpenMesh, IsNotedForTheWellsOfTheNearestCavity) {
+  std::vector<TransitionMesh> cavities(2);
+  for (std::size_t c = 0; c < 2; ++c) {
+    cavities[c].cavity.vertices.resize(1);
+    cavities[c].cavity.vertices[0].real = Vec3(100.0 * static_cast<double>(c), 0.0, 2000.0);
+    cavities[c].cavity.tubes.resize(1);
+    cavities[c].cavity.tubes[0].well = 4 + c;
+  }
+  std::map<std::size_t, std::string> reasons;
+  note_open_mesh(cavities, Vec3(80.0, 0.0, 2001.25), reasons);
+  EXPECT_EQ(reasons, (std::map<std::size_t, std::string>{
+                         {5,
+                          "the mesh around it would not close at (80.0, 0.0, 2001.2); please send this case to the "
+                          "authors"}}));
+}
+
 }  // namespace
 }  // namespace wellknit

@@ -148,6 +148,10 @@ TEST(HealFaults, NoLayerOpensOrCloses) {
   const HealedFaults healed = heal_faults(grid, {through_the_fault()}, 0.5);
   // On each pillar the top and the base of layer 4 are one level: left. The seven others are healed.
   EXPECT_EQ(healed.levels_kept, 6);
+  const auto notes = healed.notes();
+  EXPECT_EQ(notes.back(),
+            "fault policy heal: 6 levels on pillars near the wells were left, since a layer would have "
+            "opened, closed or nearly closed there");
   EXPECT_EQ(healed.levels_healed, 6 * 7);
   EXPECT_EQ(depth(healed.grid, {5, 6, 4}, {1, 0, 0}), depth(healed.grid, {5, 6, 4}, {1, 0, 1}));
   EXPECT_NEAR(depth(healed.grid, {6, 6, 4}, {0, 0, 1}) - depth(healed.grid, {6, 6, 4}, {0, 0, 0}), 0.3, 1e-9);

@@ -18,6 +18,7 @@
 
 #include "algorithm/build_mesh.h"
 #include "algorithm/host_validity.h"
+#include "algorithm/id_limit.h"
 #include "model/errors.h"
 #include "model/mesh_check.h"
 #include "readers/read_case.h"
@@ -414,6 +415,17 @@ TEST(HostMesh, RefusesAFaultThatCrossesTooManyLayers) {
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("at pillar (2, 1) cross in 4414201 points"), std::string::npos)
         << error.what();
+  }
+}
+
+TEST(RequireIds, RefusesMoreThanCanBeNumbered) {
+  EXPECT_NO_THROW(require_ids(2'147'483'647, "vertices"));
+  try {
+    require_ids(2'147'483'648, "vertices");
+    FAIL() << "numbered";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "the grid has 2147483648 vertices, and 2147483647 can be numbered; check ZCORN, or refine less");
   }
 }
 

@@ -209,6 +209,12 @@ TEST(TrimLayers, AddsUpWhatIsNeededForTwoReasons) {
   EXPECT_EQ(layers.place_of({{1, 0.0}, {4, 1.0}}), 8);
   EXPECT_THROW((void)layers.place_of({{1, 0.0}, {3, 1.0}}), InvalidInput);
   EXPECT_THROW(trim_layers(plan, {{{0, 0}, {1}}}), InvalidInput);
+  try {
+    trim_layers(plan, {{{0, 0}, first}, {{0, 0}, {1}}});
+    FAIL() << "trimmed";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "a column is asked for two numbers of layers");
+  }
 }
 
 // --- The mesh
@@ -465,6 +471,30 @@ TEST(HostRefinement, KeepsTheVolumesOfTwistedWedges) {
   EXPECT_TRUE(checked.faults.empty()) << checked.faults.front();
   EXPECT_LT(checked.worst_volume, 2e-3);
   EXPECT_NEAR(host.volume[HostCellId(2)], 50.0, 1e-9);  // 200 m2, two corners of 0.5 m and two of 0
+}
+
+TEST(HostRefinement, RefusesAFaultThatCrossesTooManyLayers) {
+  // As HostMesh.RefusesAFaultThatCrossesTooManyLayers, with layers that only their parts make so many: 60 layers have
+  // 61 x 61 points, their 40 parts each 2401 x 2401, above 1000 for each of the levels.
+  constexpr std::int64_t layers = 60;
+  constexpr int parts = 40;
+  auto grid = grids::box({2, 1, layers});
+  const double height = 5.0 * layers;
+  for (std::int64_t k = 0; k < layers; ++k)
+    for (int corner = 0; corner < 8; ++corner)
+      grid.zcorn[grid.zcorn_index({1, 0, k}, corner & 1, (corner >> 1) & 1, corner >> 2)] +=
+          (corner & 2) != 0 ? 2.0 * height : -2.0 * height;
+  ColumnLayers thin;
+  for (std::int64_t k = 0; k < layers; ++k)
+    for (int p = 0; p < parts; ++p)
+      thin.cells.push_back({{k, static_cast<double>(p) / parts}, {k, static_cast<double>(p + 1) / parts}});
+  try {
+    (void)refined(grid, {1, 1}, {{{1, 1}, {{0, 0}, {1, 0}}, thin}});
+    FAIL() << "refined";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "the layers on both sides of a fault cross in 5764801 points; check ZCORN there");  // 2401 x 2401
+  }
 }
 
 TEST(HostRefinement, RefusesAPlanThatLeavesAHole) {

@@ -112,6 +112,47 @@ TEST(PowerDiagram, CellsAreClosedAndFollowEuler) {
   }
 }
 
+TEST(PowerDiagram, SaysWhatIsNotSound) {
+  const Diagram d = diagram_of(0.0, near_well::Path::vertical);
+  ASSERT_EQ(d.cavity.planes.size(), 2U);  // top and base
+  Sites sites = d.sites;
+  sites.inner[0].weight = -1e9;  // its power is above any other's everywhere
+  EXPECT_EQ(build_power_diagram(d.cavity, sites).failure, "1 sites have no cell");
+  sites = d.sites;
+  sites.outer.clear();
+  EXPECT_EQ(build_power_diagram(d.cavity, sites).failure, "a cell is not bounded");
+  sites = d.sites;  // one behind the plane: its image stands before it, among the others
+  const MirrorPlane& plane = d.cavity.planes[0];
+  sites.inner[0].center[plane.axis] = plane.coordinate - 3.0 * plane.inward;
+  EXPECT_EQ(build_power_diagram(d.cavity, sites).failure, "a site and the image of another have a common face");
+}
+
+TEST(PowerDiagram, SaysThatAllTetrahedraAreFlat) {
+  // Nine sites in a plane but for 1e-13 m.
+  Sites sites;
+  sites.inner.push_back({Vec3::Zero(), 0.0, {}});
+  for (const double x : {-1.0, 0.0, 1.0})
+    for (const double y : {-1.0, 0.0, 1.0})
+      if (x != 0.0 || y != 0.0) sites.outer.push_back({Vec3(x, y, sites.outer.size() % 2 == 0 ? 0.0 : 1e-13), 0.0, {}});
+  EXPECT_NE(build_power_diagram({}, sites).failure.find(" flat tetrahedra have no sound neighbour"), std::string::npos);
+}
+
+TEST(DiagramTrial, SaysWhatDoesNotHold) {
+  const Diagram d = diagram_of(0.0, near_well::Path::vertical);
+  DiagramTrial trial = try_diagram(d.cavity, {});
+  EXPECT_EQ(trial.fault(d.cavity), "");
+  const auto faces = std::to_string(d.cavity.faces.size());
+  --trial.match.found;
+  trial.match.foreign = 2;
+  trial.match.volume_error = 0.25;
+  EXPECT_EQ(trial.fault(d.cavity), "the power diagram gives back " + std::to_string(d.cavity.faces.size() - 1) +
+                                       " of " + faces + " boundary faces (2 foreign, volume error 2.5e-01)");
+  trial.diagram.failure = "a cell is not bounded";
+  EXPECT_EQ(trial.fault(d.cavity), "the power diagram is not sound: a cell is not bounded");
+  trial.sites.not_centred = 3;
+  EXPECT_EQ(trial.fault(d.cavity), "3 sites do not lie in their own cells");
+}
+
 TEST(ShortEdges, AreFewerAfterTheAdjustmentAndTheDiagramStaysSound) {
   for (const auto& [deformation, path] : settings) {
     const Diagram d = diagram_of(deformation, path);

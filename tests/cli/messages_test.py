@@ -4,11 +4,14 @@
 
 The environment names the program (WELLKNIT) and the project's folder (WELLKNIT_SOURCE_DIR). tools/list_messages.py tells which are left.
 """
+import resource
+import signal
 import struct
+import subprocess
 import unittest
 
 import whole_deck
-from cli_test import DZ, NX, NY, NZ, PROJECT, TOP, Case, csv, grdecl, values
+from cli_test import DZ, NX, NY, NZ, PROGRAM, PROJECT, TOP, Case, coord, csv, grdecl, values
 
 CELLS = 15 * 15 * 8
 
@@ -44,6 +47,12 @@ class Options(Case):
         self.write("CASE.DATA", deck(schedule="WELSPECS\nP G 5 5 1* OIL /\n/\nCOMPDAT\nP 2* 1 8 OPEN /\n/\n"))
         self.fail_to_build(1, "CASE.DATA", "--deck-wells", "Q", mention=["--deck-wells: no well Q; its wells are P"])
 
+    def test_a_path_that_only_cuts_a_corner(self):
+        # 8,500 m long, of which less than 2 m lie in the grid: none or one of 2,000 samples.
+        self.write("far.csv", csv((-2999.0, 3000.0, 1040.0), (3000.0, -2999.0, 1040.0)))
+        self.assertIn("its path inside the grid is shorter than a two-thousandth of its length",
+                      " ".join(self.succeed("build", "box.GRDECL", "--well", "far.csv,mode=layered,radius=5", "-o", "out.h5").split()))
+
     def test_permeability_metric(self):
         self.write("dense.GRDECL", grdecl(PERMZ=f"{15 * 15 * 8}*0"))
         self.fail_to_build(1, "dense.GRDECL", "--well", "well.csv", "--metric", "permeability",
@@ -65,6 +74,17 @@ class Options(Case):
             self.write(name, text)
         self.fail_with(2, "build", "CASE.DATA", "--write", "deck=OUT.DATA,layout=nested",
                        mention=["a converted whole deck has layout=row, order=mesh and its own fluids; leave the keys out, or convert the mesh file"])
+
+    def test_memory(self):
+        """Two hundred million porosities take 1.6 GB where there is 1 GiB."""
+        def run(*arguments):
+            return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
+        if run("--version").returncode != 0:
+            self.skipTest("the program alone needs more")
+        self.write("large.GRDECL", "SPECGRID\n1000 1000 200 1 F /\nPORO\n200000000*0.2 /\n")
+        result = run("info", "large.GRDECL")
+        self.assertEqual((result.returncode, result.stderr), (1, "wellknit: there is not enough memory for this input\n"))
 
     def test_a_device_as_input(self):
         self.fail_to_build(1, "/dev/null", mention=["expected a regular file, found a device or a pipe; save its content as a file first"])
@@ -157,6 +177,8 @@ class Decks(Case):
     def test_refusals(self):
         for words, sections in {
             "expected the name of a fault as item 1, found none": {"grid": "FAULTS\nF 3 3 1 15 1 8 X /\n/\nMULTFLT\n1* 0.5 /\n/\n"},
+            "PEBI: expected a single corner-point grid in text, found an unstructured grid; export a corner-point grid (COORD and ZCORN)":
+                {"grid": "PEBI\nYES /\n"},
             "the unit system PVT-M; convert the deck to METRIC, FIELD or LAB": {"runspec": "PVT-M\n"},
             "corner depths changed after ZCORN; let the simulator or the pre-processor write the grid as it is after this keyword":
                 {"grid": "ADDZCORN\n1 1 15 1 15 1 8 /\n/\n"},
@@ -196,6 +218,20 @@ class Decks(Case):
             "COMPSEGS: expected the name of a well, found an empty record": "COMPSEGS\n/\n/\n",
         }.items():
             self.check(words, deck(schedule=HEAD + cells + schedule), "--deck-wells", "all", fails=True)
+
+    def test_segments_without_length(self):
+        # Layer 2 has no thickness, so neither has a branch that is completed there alone.
+        depths = [TOP + DZ * (level - (level > 1)) for level in ((k + 1) // 2 for k in range(2 * NZ)) for _ in range(4 * NX * NY)]
+        text = deck(schedule=HEAD + "COMPDAT\nP 8 8 1 4 OPEN /\n/\nWELSEGS\nP 1000 0 1* INC /\n2 2 1 1 10 10 0.2 1E-4 /\n/\nCOMPSEGS\nP /\n8 8 2 1 /\n/\n")
+        text = text.replace(grdecl(), grdecl(ZCORN=values(depths)))
+        self.check("well P: branch 1 has no length and is left out", text, "--deck-wells", "all")
+        self.check("well P: no path comes of its segments; it is taken through its completed cells", text, "--deck-wells", "all")
+
+    def test_a_bore_wider_than_its_cells_allow(self):
+        # By the grid's side, where no tube has room; the equivalent radius of a cell of 20 x 20 m is 4 m.
+        self.write("edge.csv", csv((0.3, 143.0, 990.0), (0.3, 143.0, 1090.0)))
+        self.assertIn("it has no connections: the bore of radius 5 m with skin 0 is too wide for cell (1, 8, 1)",
+                      " ".join(self.succeed("build", "box.GRDECL", "--well", "edge.csv,bore=5,radius=10", "-o", "out.h5").split()))
 
     def test_without_porosity(self):
         self.write("CASE.GRDECL", grdecl(PORO=None, PERMX=None, PERMY=None, PERMZ=None))
@@ -266,6 +302,30 @@ class Conversion(unittest.TestCase):
     def test_schedule(self):
         self.deck.change(" 8 2 1 1 1 7 /", " 8 2 1 1 1 7 1* 3 /")
         self.deck.refuse("expected one cell a record, found a range of cells (item 8); write a record for each cell of the range")
+
+    def test_a_skin_that_no_cell_at_the_bore_allows(self):
+        self.deck.change(" P1 2* 1 2 OPEN 2* 0.2 /", " P1 2* 1 2 OPEN 2* 0.2 1* -20 /")
+        result = self.deck.run_program("--deck-wells", "all", "--write", "deck=OUT.DATA")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("COMPDAT: expected a skin that leaves a resistance to flow as item 11, found -20; the cells at the bore are too small for a skin "
+                      "this low: use a larger bore radius or fewer rings", result.stderr)
+
+    def test_a_cell_of_a_well_with_a_trajectory(self):
+        # P1 by its path alone, and a WELOPEN of one of its cells later.
+        text = self.deck.source["CASE.DATA"].replace(" P1 2* 1 2 OPEN 2* 0.2 / upper part\n", "").replace("COMPDAT\n P1 5 5 3 4 OPEN 2* 0.2 1* 2 /\n/\n", "")
+        track = "WELTRAJ\n P1 1* 180 180 2000 0 /\n P1 1* 180 180 2030 30 /\n/\nCOMPTRAJ\n P1 1* 1 20 /\n/\n"
+        (self.deck.folder / "CASE.DATA").write_text(text.replace("COMPDAT\n-- the", track + "COMPDAT\n-- the", 1))
+        self.deck.refuse("WELOPEN: expected connections of a well with COMPTRAJ without their cells, found a cell; choose the whole well, or complete it "
+                         "with COMPDAT")
+
+    def test_a_disk_that_is_full(self):
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # the write fails instead
+            resource.setrlimit(resource.RLIMIT_FSIZE, (5_000, 5_000))
+        result = subprocess.run([PROGRAM, "build", "CASE.DATA", "--write", "deck=OUT.DATA"], cwd=self.deck.folder, capture_output=True, text=True,
+                                preexec_fn=limit, restore_signals=False)
+        self.assertEqual((result.returncode, result.stderr), (1, "wellknit: OUT_parts/grid.inc: cannot be written; is the disk full?\n"))
+        self.assertEqual([path.name for path in self.deck.folder.glob("*OUT*")], [])
 
     def test_trajectories(self):
         begin = self.deck.source["CASE.DATA"].index("COMPDAT")
@@ -487,6 +547,15 @@ class MeshFile(Case):
             ("expected the type producer or injector, found observer", put("type", "observer", well)),
         ):
             self.check_changed(words, change)
+
+    def test_a_transmissibility_that_is_none(self):
+        for value in (-1e-12, float("nan")):
+            (self.folder / "bad.h5").write_bytes((self.folder / "good.h5").read_bytes())
+            with self.h5py.File(self.folder / "bad.h5", "r+") as file:
+                file["connections/transmissibility"][7] = value
+            with self.subTest(value):
+                out = self.succeed("solve", "bad.h5", "--boundary", "all=200bar", "--well", "well=100bar")
+                self.assertIn("1 connections of negative or undefined transmissibility were taken as closed", out)
 
 
 if __name__ == "__main__":

@@ -244,6 +244,11 @@ std::vector<Broken> broken_roff() {
        ": filedata.byteswaptest: expected the integer 1, in either byte order, found another value at byte 76; the "
        "file "
        "is damaged"},
+      {"two byte orders",
+       replaced(binary, std::string("int\0byteswaptest\0\1\0\0\0", 21),
+                std::string("int\0byteswaptest\0\1\0\0\0int\0byteswaptest\0\0\0\0\1", 42)),
+       ": filedata.byteswaptest: expected one byte order, found another one than before at byte 97; the file is cut or "
+       "damaged: copy it again, in binary mode"},
       {"a byte order that is not said", replaced(binary, std::string("int\0byteswaptest\0\1\0\0\0", 21), std::string()),
        ": dimensions.nX: expected filedata.byteswaptest before any number, found none at byte 202; the file's byte "
        "order is unknown"},

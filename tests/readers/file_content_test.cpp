@@ -4,9 +4,13 @@
 #include "readers/file_content.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <filesystem>
 
 #include "model/errors.h"
 #include "tests/readers/reader_helpers.h"
+#include "tests/support/ordinary_user.h"
 #include "tests/support/scratch_folder.h"
 
 namespace wellknit {
@@ -40,6 +44,33 @@ TEST(FileContent, MissingFileAndFolderAreErrors) {
   EXPECT_EQ(missing->where().file, folder.file("no.inc"));
   EXPECT_EQ(missing->where().line, 0);
   EXPECT_TRUE(error_of([&] { return load_file(folder.path().string()); }));
+}
+
+TEST(FileContent, AFileThatItsUserMayNotReadIsAnError) {
+  const ScratchFolder folder;
+  folder.write("secret.inc", "text");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(folder.file("secret.inc"), std::filesystem::perms::none);
+  EXPECT_EQ(
+      refusal_to_ordinary_user([&] { (void)load_file(folder.file("secret.inc")); }),
+      folder.file("secret.inc") + ": expected a readable file, found one that cannot be opened; check its permissions");
+}
+
+TEST(FileContent, AFileThatMemoryCannotHoldIsAnError) {
+#ifdef WELLKNIT_FEW_ROUNDS
+  GTEST_SKIP() << "sanitizers take more address space than any limit leaves";
+#endif
+  const ScratchFolder folder;
+  folder.write("large.inc", "text");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  std::filesystem::resize_file(folder.file("large.inc"), std::uintmax_t{1} << 36U);  // without any block on the disk
+  EXPECT_EQ(refusal_to_ordinary_user([&] {
+              const rlimit half{rlim_t{1} << 35U, rlim_t{1} << 35U};
+              if (::setrlimit(RLIMIT_AS, &half) != 0) throw std::runtime_error("no limit can be set");
+              (void)load_file(folder.file("large.inc"));
+            }),
+            folder.file("large.inc") +
+                ": expected a readable file, found one that cannot be mapped into memory; copy the file and try again");
 }
 
 }  // namespace

@@ -115,6 +115,20 @@ class Report(unittest.TestCase):
     def keep(self, name):
         self.browser.save_screenshot(str(SCREENSHOTS / f"{name}.png"))
 
+    def pick_cell(self, mesh):
+        """A click shows the numbers of a cell, which are those of the mesh file."""
+        ActionChains(self.browser).move_to_element_with_offset(self.canvas(), 0, 60).click().perform()
+        end = time.monotonic() + 20
+        while not self.script("return document.querySelector('#v-numbers table')") and time.monotonic() < end:
+            time.sleep(0.05)
+        cell = int(self.script("return document.getElementById('v-numbers').dataset.cell"))
+        import h5py
+        with h5py.File(self.folder / mesh) as file:
+            volume, kind = file["cells/volume"][cell], file["cells/kind"][cell]
+        value = lambda name: self.script(f"return document.querySelector('#v-numbers [data-array={name}]').textContent")
+        self.assertAlmostEqual(float(value("volume")) / volume, 1.0, delta=1e-3)
+        self.assertEqual(value("kind"), ["host", "refined", "transition", "radial"][kind])
+
     def check_figures(self, check):
         shown = self.script("return [...document.querySelectorAll('[data-figure]')].map(e => [e.dataset.figure, e.dataset.value])")
         self.assertGreater(len(shown), 60)
@@ -261,18 +275,7 @@ class Picture(Report):
                 before = now
 
     def test_a_cell_is_picked(self):
-        canvas = self.canvas()
-        ActionChains(self.browser).move_to_element_with_offset(canvas, 0, 60).click().perform()
-        end = time.monotonic() + 20
-        while not self.script("return document.querySelector('#v-numbers table')") and time.monotonic() < end:
-            time.sleep(0.05)
-        cell = int(self.script("return document.getElementById('v-numbers').dataset.cell"))
-        import h5py  # the numbers are those of the mesh file
-        with h5py.File(self.folder / "mesh.h5") as mesh:
-            volume, kind = mesh["cells/volume"][cell], mesh["cells/kind"][cell]
-        value = lambda name: self.script(f"return document.querySelector('#v-numbers [data-array={name}]').textContent")
-        self.assertAlmostEqual(float(value("volume")) / volume, 1.0, delta=1e-3)
-        self.assertEqual(value("kind"), ["host", "refined", "transition", "radial"][kind])
+        self.pick_cell("mesh.h5")
         self.keep("picked")
 
     def test_a_worst_cell_is_shown(self):
@@ -295,6 +298,20 @@ class PublicData(Report):
         run(self.folder, "build", *arguments, "-o", f"{name}.h5", "--quiet")
         self.check_figures(self.open(f"{name}.h5"))
         self.keep(name)
+        before = self.pixels()
+        canvas = self.canvas()
+        self.keep(f"{name}-picture")
+        self.pick_cell(f"{name}.h5")
+        picked = self.pixels()
+        self.assertNotEqual(before, picked)  # it is marked
+        self.keep(f"{name}-picked")
+        ActionChains(self.browser).drag_and_drop_by_offset(canvas, 120, 40).perform()
+        turned = self.pixels()
+        self.assertNotEqual(picked, turned)
+        self.choose("v-place", 400)
+        self.assertNotEqual(turned, self.pixels())
+        self.keep(f"{name}-cut")
+        self.assertEqual([entry for entry in self.browser.get_log("browser") if entry["level"] != "INFO"], [])
 
     def test_spe9(self):
         self.try_case("spe9", SHARED / "data" / "spe9" / "SPE9_CP.DATA", "--deck-wells", "all", "--radius", "20")

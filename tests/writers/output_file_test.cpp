@@ -3,7 +3,9 @@
 
 #include "writers/output_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "model/errors.h"
+#include "tests/support/ordinary_user.h"
 #include "tests/support/scratch_folder.h"
 
 namespace wellknit {
@@ -98,10 +101,42 @@ TEST(OutputFile, RefusesAFolderADeviceAndAnEmptyName) {
 }
 
 TEST(OutputFile, NamesAFolderThatIsNotWritable) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const ScratchFolder folder;
-  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  EXPECT_NE(message_of(folder.file("out.txt"), Overwrite::refuse).find("is not writable"), std::string::npos);
+  using std::filesystem::perms;
+  std::filesystem::permissions(folder.path(),
+                               perms::owner_read | perms::owner_exec | perms::others_read | perms::others_exec);
+  EXPECT_EQ(refusal_to_ordinary_user([&] { OutputFile(folder.file("out.txt"), Overwrite::refuse); }),
+            folder.file("out.txt") + ": cannot be written: the folder " + folder.path().string() +
+                " is not writable; choose another");
+}
+
+TEST(OutputFile, SaysWhyNothingCanBeMadeBesideIt) {
+  // A name may have 255 bytes: this one may stand there, but with what an unfinished file has behind it, it may not.
+  const ScratchFolder folder;
+  const std::string path = folder.file(std::string(250, 'a'));
+  EXPECT_EQ(message_of(path, Overwrite::refuse),
+            path + ": cannot be written: File name too long; choose a folder where you may write");
+}
+
+TEST(OutputFile, SaysThatTooManyUnfinishedFilesStandBesideIt) {
+  const ScratchFolder folder;
+  for (int n = 0; n < 1000; ++n) folder.write(fmt::format("out.txt.{}-{}.part", ::getpid(), n), "");
+  EXPECT_EQ(message_of(folder.file("out.txt"), Overwrite::refuse),
+            folder.file("out.txt") +
+                ": cannot be written: too many unfinished files stand beside it; remove the files that end in .part");
+  EXPECT_EQ(folder.count(), 1000U);
+}
+
+TEST(OutputFile, SaysThatItCannotBeOpened) {
+  // With this mask its user may not even write the files that he has made.
+  const ScratchFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  EXPECT_EQ(refusal_to_ordinary_user([&] {
+              ::umask(0777);
+              OutputStream(folder.file("out.txt"), Overwrite::refuse);
+            }),
+            folder.file("out.txt") + ": cannot be written: it cannot be opened");
+  EXPECT_EQ(folder.count(), 0U);
 }
 
 TEST(OutputFile, FollowsASymbolicLink) {

@@ -15,6 +15,7 @@
 #include "model/units.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scratch_folder.h"
+#include "writers/deck_layout.h"
 
 namespace wellknit {
 namespace {
@@ -277,6 +278,26 @@ TEST(WriteFlowDeck, NestedLayoutNeedsItsOwnSource) {
   for (double& depth : far.zcorn) depth += 500.0;
   EXPECT_THROW(write_flow_deck(mesh, folder.file("out.DATA"), options, Overwrite::refuse, &far), InvalidInput);
   EXPECT_EQ(folder.count(), 0U);
+}
+
+TEST(WriteFlowDeck, NestedLayoutRefusesAGridThatNoSimulatorHolds) {
+  // One column of 5000 x 5000 places, and two more for the eight made cells: 3 x 25 million places.
+  Mesh mesh = meshes::box_grid(2);
+  mesh.source_dimensions = {1, 5000, 5000};
+  mesh.cells.kind = IdVector<CellId, CellKind>(8, CellKind::transition);
+  CornerPointGrid source;
+  source.dimensions = mesh.source_dimensions;
+  const DeckBoxes boxes{std::vector<double>(8, 200.0), std::vector<double>(8, 5.0)};
+  DeckLayoutInput input{mesh, boxes, {}, &source};
+  for (std::size_t c = 0; c < 8; ++c) input.order.emplace_back(c);
+  try {
+    (void)make_deck_layout(DeckLayoutKind::nested, input);
+    FAIL() << "made";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "layout=nested: 8 made cells beside 1 x 5000 x 5000 cells need a grid of 3 x 5000 x 5000 cells, more "
+                 "than 50000000; use layout=portable");
+  }
 }
 
 TEST(WriteFlowDeck, RefusesAMeshWithoutCells) {

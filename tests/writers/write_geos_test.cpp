@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/errors.h"
 #include "tests/support/grids.h"
 #include "tests/support/meshes.h"
@@ -26,6 +28,24 @@ TEST(WriteGeos, SaysWhatWasSplitAndWhatThatCosts) {
   const auto notes = write_geos(meshes::ring_in_boxes(), folder.file("split.vtu"), options);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes[0].find("16 of 64 cells are split"), std::string::npos) << notes[0];
+}
+
+TEST(WriteGeos, SaysThatPiecesHaveNoVolume) {
+  const ScratchFolder folder;
+  Mesh mesh = meshes::ring_in_boxes();
+  // One corner of the square, at the top, goes through the cell's base 5 m below it.
+  const auto corner = std::find_if(mesh.vertices.raw().begin(), mesh.vertices.raw().end(),
+                                   [](const Vec3& p) { return p == Vec3(4.0, 4.0, 1500.0); });
+  ASSERT_NE(corner, mesh.vertices.raw().end());
+  corner->z() = 1520.0;
+  GeosOptions options;
+  options.most_sides = 4;
+  const auto notes = write_geos(mesh, folder.file("split.vtu"), options);
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[1].find("have no positive volume, since no point was found that sees all of its cell's faces; GEOS "
+                          "refuses them: mend the grid there, or leave the cells out"),
+            std::string::npos)
+      << notes[1];
 }
 
 TEST(WriteGeos, RefusesRegionsThatAreNotWholeNumbers) {

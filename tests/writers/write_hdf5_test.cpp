@@ -329,6 +329,70 @@ TEST(ReadMesh, ReportsSizesThatTheFileCannotHold) {
       << message;
 }
 
+/// A list in one compressed piece: gzip and `bytes` in its place.
+void replace_by_chunk(hid_t file, const char* name, hid_t type, hsize_t size, const std::string& bytes) {
+  H5Ldelete(file, name, H5P_DEFAULT);
+  const hdf5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(properties.get(), 1, &size);
+  H5Pset_deflate(properties.get(), 9);
+  const hdf5::Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const hdf5::Handle set(H5Dcreate2(file, name, type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                         H5Dclose);
+  const hsize_t first = 0;
+  H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, &first, bytes.size(), bytes.data());
+}
+
+TEST(ReadMesh, ReportsDataThatCannotBeUnpacked) {
+  const std::string noise(64, '\x55');  // no gzip stream begins so
+  EXPECT_EQ(message_after([&](hid_t file) { replace_by_chunk(file, "cells/volume", H5T_IEEE_F64LE, 8, noise); }),
+            ": cells/volume: expected readable data, found data that HDF5 cannot read; the file is damaged; make the "
+            "file anew with `wellknit build`");
+  const hdf5::Handle name(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(name.get(), 8);
+  EXPECT_NE(message_after([&](hid_t file) {
+              replace_by_chunk(file, "wells_order", name.get(), 2, noise);
+            }).find("wells_order: expected readable data"),
+            std::string::npos);
+}
+
+TEST(ReadMesh, ReportsDataThatAreNotInTheFile) {
+  // HDF5 may keep a dataset in a file of its own, here of 8 MB: a mesh file is one file.
+  const std::string message = message_after([](hid_t file) {
+    H5Ldelete(file, "cells/volume", H5P_DEFAULT);
+    const hdf5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_external(properties.get(), "elsewhere.bin", 0, 8'000'000);
+    const std::array<hsize_t, 1> shape{1'000'000};
+    const hdf5::Handle space(H5Screate_simple(1, shape.data(), nullptr), H5Sclose);
+    const hdf5::Handle set(
+        H5Dcreate2(file, "cells/volume", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+        H5Dclose);
+  });
+  EXPECT_NE(message.find("cells/volume: expected data inside the file, found 8000000 bytes in a file of "),
+            std::string::npos)
+      << message;
+}
+
+TEST(ReadMesh, ReportsStringsThatAreLargerThanTheFile) {
+  // Two names of 500,000 zeros each, which gzip packs into some 1,000 bytes.
+  const std::string message = message_after([](hid_t file) {
+    H5Ldelete(file, "wells_order", H5P_DEFAULT);
+    const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.get(), 500'000);
+    const std::array<hsize_t, 1> shape{2};
+    const hdf5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(properties.get(), 1, shape.data());
+    H5Pset_deflate(properties.get(), 9);
+    const hdf5::Handle space(H5Screate_simple(1, shape.data(), nullptr), H5Sclose);
+    const hdf5::Handle set(
+        H5Dcreate2(file, "wells_order", type.get(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose);
+    const std::string zeros(1'000'000, '\0');
+    H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, zeros.data());
+  });
+  EXPECT_NE(message.find("wells_order: expected strings that fit in the file, found 2 of 500000 bytes"),
+            std::string::npos)
+      << message;
+}
+
 TEST(ReadMesh, ReportsAWellThatIsNotThere) {
   EXPECT_NE(message_after([](hid_t file) {
               H5Ldelete(file, "wells/PROD", H5P_DEFAULT);

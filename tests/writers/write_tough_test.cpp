@@ -70,6 +70,18 @@ TEST(WriteTough, MakesNamesOfFiveToEightCharacters) {
   EXPECT_THROW(Written(meshes::two_boxes(), {9, AreaKind::effective, ""}), InvalidInput);
 }
 
+TEST(WriteTough, RefusesNamesThatAreTooShortForSoManyCells) {
+  // Five characters: 26 x 36 x 36 letters and digits with 90 numbers of two digits, 3,032,640 names.
+  Mesh mesh = meshes::two_boxes();
+  mesh.cells.kind = IdVector<CellId, CellKind>(3'032'641, CellKind::host);
+  try {
+    const Written out(mesh, {5, AreaKind::effective, ""});
+    FAIL() << "written";
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "3032641 cells are more than names of 5 characters; take 6");
+  }
+}
+
 TEST(WriteTough, MakesARockOfEachRegion) {
   Mesh mesh = meshes::two_boxes();
   mesh.cells.properties["SATNUM"] = std::vector<std::int32_t>{7, 2};
