@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -333,10 +332,16 @@ std::string cell_name(const NearWellGrid& grid, const Cell& c) {
   return fmt::format("({}, {}, {})", i + 1, j + 1, k + 1);
 }
 
+NoCavity too_many_rounds(const Cavity& cavity, const RemovedCells& removed) {
+  return {fmt::format("no cavity was found in {} rounds of removing cells ({} removed)", cavity.rounds - 1,
+                      removed.count()),
+          all_tubes(cavity)};
+}
+
 /// Why no more cells could be removed. A face that is not admissible and gives no reason asks for a cell, behind it or
 /// at a vertex of the boundary, that is still there: it was taken or something keeps it.
 NoCavity blocked(const HostFrame& frame, const Cavity& cavity, const RemovedCells& removed) {
-  if (!removed.blocked()) throw std::logic_error("a cavity stayed as it was, and nothing keeps its cells");
+  if (!removed.blocked()) return too_many_rounds(cavity, removed);
   const Box box = frame.space.box(*removed.blocked());
   return {fmt::format("a fault, a gap or a place without thickness at cell {} is too close to its tube",
                       cell_name(frame.grid, *removed.blocked())),
@@ -489,10 +494,7 @@ std::variant<Cavity, NoCavity> build_cavity(const HostFrame& frame, std::vector<
   for (const Tube& tube : cavity.tubes) remove_cells_around_tube(frame, tube, options.dilation, in_columns, removed);
   for (cavity.rounds = 1;; ++cavity.rounds) {
     make_closed(frame.grid, in_columns, removed);
-    if (cavity.rounds > options.most_rounds)
-      return NoCavity{fmt::format("no cavity was found in {} rounds of removing cells ({} removed)",
-                                  options.most_rounds, removed.count()),
-                      all_tubes(cavity)};
+    if (cavity.rounds > options.most_rounds) return too_many_rounds(cavity, removed);
     if (removed.count() > options.most_cells)
       return NoCavity{fmt::format("its cavity would swallow {} cells", removed.count()), all_tubes(cavity)};
     cavity.removed = removed.list();
