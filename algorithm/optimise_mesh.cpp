@@ -5,10 +5,11 @@
 // face's normal and the line of the centres, about its square:
 //   e + 2 e^2           of each face between two cells, a joint's 1.2-fold;
 //   (e - e_0)^2         of each such face whose e is above what it was, 300-fold, of a joint 2,000-fold;
-//   sum of h^2 / A      of each inner face, 60-fold: heights h of its vertices over its plane, area A;
+//   sum of h^2 / A      of each inner face, 90-fold: heights h of its vertices over its plane, area A;
+//   (1 - l / l_0)^2     of each edge that moves, 0.5-fold, where its length l is below l_0: 0.04 of the size of the
+//                       largest cell at it;
 //   (1 - t / t_0)^2     of each tetrahedron between a centre, a face's middle and an edge, 0.03-fold, where its volume
-//   t
-//                       is below t_0: a fifth of what it was, or a thousandth of the cell where that is more.
+//                       t is below t_0: a fifth of what it was, or a thousandth of the cell where that is more.
 // All are smooth where faces have an area and centres differ. docs/algorithms/optimisation.md says what was tried.
 
 #include "algorithm/optimise_mesh.h"
