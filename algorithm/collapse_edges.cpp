@@ -3,8 +3,7 @@
 
 // Edge contraction in a polyhedral complex. What keeps a cell a sphere: two vertices of it become one only where it has
 // the edge between them, the faces that have both have that edge, and afterwards each edge is in two of its faces (the
-// link condition of Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology preserving edge contraction, asked of each cell
-// by counting).
+// link condition of key Dey1999, asked of each cell by counting).
 
 #include "algorithm/collapse_edges.h"
 
@@ -72,6 +71,7 @@ class EdgeCollapser {
   };
   struct Cell {
     CellId id;
+    double volume = 0.0;
     double size = 0.0;
     std::vector<int> faces;
   };
@@ -79,6 +79,7 @@ class EdgeCollapser {
   struct NewLoop {
     int face = 0;
     std::vector<int> loop;  ///< empty: it goes
+    FaceShape before;
   };
   using Edge = std::pair<int, int>;
 
@@ -106,7 +107,8 @@ class EdgeCollapser {
         face.center[side] = &mesh_.cells.center[cells[side]];
         if (!is_transition(mesh_, cells[side])) continue;
         const auto [at, is_new] = cell_at.try_emplace(cells[side].value(), static_cast<int>(cells_.size()));
-        if (is_new) cells_.push_back({cells[side], std::cbrt(std::abs(mesh_.cells.volume[cells[side]])), {}});
+        const double volume = std::abs(mesh_.cells.volume[cells[side]]);
+        if (is_new) cells_.push_back({cells[side], volume, std::cbrt(volume), {}});
         face.cell[side] = at->second;
         cells_[static_cast<std::size_t>(at->second)].faces.push_back(static_cast<int>(faces_.size()));
       }
@@ -208,7 +210,7 @@ class EdgeCollapser {
       const bool has_both =
           std::find(loop.begin(), loop.end(), u) != loop.end() && std::find(loop.begin(), loop.end(), v) != loop.end();
       if (has_both && !has_edge(loop, u, v)) return std::nullopt;
-      NewLoop next{f, {}};
+      NewLoop next{f, {}, {}};
       for (const int w : loop)
         if (!(has_both && w == v)) next.loop.push_back(w == v ? u : w);
       if (next.loop.size() < 3) next.loop.clear();
@@ -234,7 +236,7 @@ class EdgeCollapser {
     return at != loops.end() && at->face == f ? &at->loop : nullptr;
   }
 
-  /// Whether a cell is a closed surface without the edge.
+  /// Whether a cell is a closed surface without the edge. Only edges at u change.
   [[nodiscard]] bool stays_closed(int cell, int u, int v, const std::vector<NewLoop>& loops) {
     bool has_u = false;
     bool has_v = false;
@@ -254,6 +256,7 @@ class EdgeCollapser {
       const bool is_first = face(f).cell[0] == cell;
       for (std::size_t n = 0; n < loop.size(); ++n) {
         const Edge edge{loop[n], loop[(n + 1) % loop.size()]};
+        if (edge.first != u && edge.second != u) continue;
         edges_.push_back(is_first ? edge : Edge{edge.second, edge.first});
       }
     }
@@ -283,7 +286,7 @@ class EdgeCollapser {
       for (std::size_t side = 0; side < 2; ++side)
         if (of.cell[side] >= 0)
           out.thinnest = std::min(out.thinnest, (side == 0 ? 1.0 : -1.0) * triangle.dot(middle - *of.center[side]) /
-                                                    std::pow(cells_[static_cast<std::size_t>(of.cell[side])].size, 3));
+                                                    cells_[static_cast<std::size_t>(of.cell[side])].volume);
     }
     const double size = area.norm();
     out.height = size > 0.0 ? std::numeric_limits<double>::infinity() : -1.0;
@@ -308,9 +311,10 @@ class EdgeCollapser {
     for (const NewLoop& next : loops) {
       if (next.loop.empty()) continue;
       const Face& of = face(next.face);
-      const FaceShape before = shape_of(of, of.loop, -1, place);
+      const FaceShape& before = next.before;
       const FaceShape after = shape_of(of, next.loop, u, place);
-      if (!(after.height >= std::min(limits_.height, before.height)) || !(after.height > 0.0)) return std::nullopt;
+      if (!(after.height >= std::min(limits_.height, limits_.kept_height * before.height)) || !(after.height > 0.0))
+        return std::nullopt;
       if (after.thinnest < before.thinnest) return std::nullopt;
       if (after.angle > std::max(most, before.angle)) return std::nullopt;
       if (after.planarity > std::max(limits_.planarity, before.planarity)) return std::nullopt;
@@ -319,8 +323,8 @@ class EdgeCollapser {
     return sum;
   }
 
-  /// The point nearest to the planes of the faces that stay, in the sum of squares (Garland and Heckbert 1997, Surface
-  /// simplification using quadric error metrics); about the middle of the edge where they leave it free.
+  /// The point nearest to the planes of the faces that stay, in the sum of squares (key Garland1997);
+  /// about the middle of the edge where they leave it free.
   [[nodiscard]] Vec3 near_planes(const std::vector<NewLoop>& loops, int u, int v) const {
     const Vec3 middle = 0.5 * (point(u) + point(v));
     constexpr double pull = 0.01;  // to the middle, beside one for a plane
@@ -349,10 +353,11 @@ class EdgeCollapser {
   bool collapse(int u, int v) {
     if (!is_free(v)) std::swap(u, v);
     if (!is_free(v)) return false;
-    const auto loops = loops_without(u, v);
+    auto loops = loops_without(u, v);
     if (!loops) return false;
     for (const int c : cells_of(*loops))
       if (!stays_closed(c, u, v, *loops)) return false;
+    for (NewLoop& next : *loops) next.before = shape_of(face(next.face), face(next.face).loop, -1, point(u));
     std::vector<Vec3> places{point(u)};
     if (is_free(u)) places = {near_planes(*loops, u, v), 0.5 * (point(u) + point(v)), point(u), point(v)};
     std::optional<double> best;

@@ -27,11 +27,11 @@ struct EdgeCollapse {
 };
 
 struct CollapseLimits {
-  double length = 0.05;  ///< of the size of the largest cell at an edge: shorter ones are taken out
-  double angle = 45.0;   ///< degrees; no face may come beyond it that was below
-  double height =
-      0.05;  ///< of the cell's size: as far as a cell's centre is to be behind each face, or as far as it was
-  double planarity = 0.1;  ///< height of vertices over a face's plane, over the root of its area; the same
+  double length = 0.05;      ///< of the size of the largest cell at an edge: shorter ones are taken out
+  double angle = 45.0;       ///< degrees; no face may come beyond it that was below
+  double height = 0.02;      ///< of the cell's size: as far as a cell's centre is to be behind each face, or
+  double kept_height = 0.5;  ///< this part of how far it was, where that is less
+  double planarity = 0.1;    ///< height of vertices over a face's plane, over the root of its area; the same
 };
 
 /// Takes out edges with an end that belongs to transition cells alone, shortest first. The other end may lie on a face

@@ -5,10 +5,11 @@
 // face's normal and the line of the centres, about its square:
 //   e + 2 e^2           of each face between two cells, a joint's 1.2-fold;
 //   (e - e_0)^2         of each such face whose e is above what it was, 300-fold, of a joint 2,000-fold;
-//   sum of h^2 / A      of each inner face, 60-fold: heights h of its vertices over its plane, area A;
+//   sum of h^2 / A      of each inner face, 90-fold: heights h of its vertices over its plane, area A;
+//   (1 - l / l_0)^2     of each edge that moves, 0.5-fold, where its length l is below l_0: 0.04 of the size of the
+//                       largest cell at it;
 //   (1 - t / t_0)^2     of each tetrahedron between a centre, a face's middle and an edge, 0.03-fold, where its volume
-//   t
-//                       is below t_0: a fifth of what it was, or a thousandth of the cell where that is more.
+//                       t is below t_0: a fifth of what it was, or a thousandth of the cell where that is more.
 // All are smooth where faces have an area and centres differ. docs/algorithms/optimisation.md says what was tried.
 
 #include "algorithm/optimise_mesh.h"
@@ -233,11 +234,11 @@ class CavityShape {
   struct Share {
     double sum = 0.0;
     std::vector<Vec3> slope;  ///< per point
-    // The face's corners over its middle, the first once more at the end; products of neighbours; slopes by them.
+    // The face's corners over its middle, the first once more at the end; products of neighbours; slopes by the
+    // corners.
     std::vector<Vec3> rim;
     std::vector<Vec3> product;
     std::vector<Vec3> rim_slope;
-    std::vector<Vec3> product_slope;
   };
   struct Edge {
     std::int32_t a;
@@ -416,15 +417,14 @@ class CavityShape {
     w.rim_slope.assign(count + 1, Vec3::Zero());
     Vec3 area_slope = Vec3::Zero();
     double sum = face.has_two_cells() ? add_shape(face, 0.5 * area, area_slope, w) : 0.0;
-    w.product_slope.assign(count, 0.5 * area_slope);
     Vec3 middle_slope = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side)
       if (face.is_made[side]) sum += add_barrier(face, side, m, middle_slope, w);
-    for (std::size_t n = 0; n < count; ++n) {
-      w.rim_slope[n] += w.rim[n + 1].cross(w.product_slope[n]);
-      w.rim_slope[n + 1] += w.product_slope[n].cross(w.rim[n]);
-    }
     w.rim_slope[0] += w.rim_slope[count];
+    // A corner is in two products: the area vector changes by half the cross product with its neighbours' difference.
+    const Vec3 by_product = 0.5 * area_slope;
+    for (std::size_t n = 0; n < count; ++n)
+      w.rim_slope[n] += (w.rim[n + 1] - w.rim[n == 0 ? count - 1 : n - 1]).cross(by_product);
     // The rim is taken from the middle, which is the corners' mean: what pulls all of it pulls them the other way.
     Vec3 all = middle_slope;
     for (std::size_t n = 0; n < count; ++n) all -= w.rim_slope[n];
@@ -473,12 +473,16 @@ class CavityShape {
     double sum = 0.0;
     std::size_t tetrahedron = face.tetrahedra + (side == 1 && face.is_made[0] ? face.size() : 0);
     for (std::size_t n = 0; n < face.size(); ++n, ++tetrahedron) {
-      const double missing = 1.0 - u.dot(w.product[n]) / thin_[tetrahedron];
-      if (missing <= 0.0) continue;
+      const double volume = u.dot(w.product[n]);
+      const double thin = thin_[tetrahedron];
+      if (volume >= thin) continue;
+      const double missing = 1.0 - volume / thin;
       sum += weights_.barrier * missing * missing;
-      const double by_volume = -2.0 * weights_.barrier * missing / thin_[tetrahedron];
+      const double by_volume = -2.0 * weights_.barrier * missing / thin;
       by_u += by_volume * w.product[n];
-      w.product_slope[n] += by_volume * u;
+      const Vec3 by_product = by_volume * u;
+      w.rim_slope[n] += w.rim[n + 1].cross(by_product);
+      w.rim_slope[n + 1] += by_product.cross(w.rim[n]);
     }
     if (side == 1) by_u = -by_u;
     middle_slope += by_u;

@@ -37,7 +37,7 @@ struct OptimisationWeights {
   double keep_inner = 300.0;   ///< the same of an inner face
   double planarity = 90.0;     ///< of an inner face's squared heights over its plane, relative to its area
   double barrier = 0.03;       ///< of a tetrahedron between centre and face that gets thin
-  double edge = 0.25;          ///< of an inner edge that gets short
+  double edge = 0.5;           ///< of an inner edge that gets short
   double shortest = 0.04;      ///< of the size of the largest cell at an edge: from there on it is short
   int iterations = 150;
 };

@@ -30,14 +30,17 @@ std::vector<Bounds> boxes_of(const Mesh& mesh, std::int64_t first, std::int64_t 
 /// Places on the path outside of its tubes that lie in a box.
 std::vector<Vec3> places_outside(const Well& well, const std::vector<MeasuredDepthRange>& tubes, const Bounds& within) {
   constexpr double most = 20000.0;
+  // A path that ends with its tube does not go on behind it, whatever rounding says; of the drainage radius.
+  constexpr double rounding = 1e-6;
   const WellPath path(well.trajectory);
   const double length = path.last_depth() - path.first_depth();
   const auto steps = static_cast<int>(std::clamp(std::ceil(10.0 * length / well.radial.drainage_radius), 1.0, most));
+  const double near = rounding * well.radial.drainage_radius;
   std::vector<Vec3> out;
   for (int n = 0; n <= steps; ++n) {
     const double depth = path.first_depth() + length * n / steps;
     if (std::any_of(tubes.begin(), tubes.end(),
-                    [&](const MeasuredDepthRange& t) { return t.from < depth && depth < t.to; }))
+                    [&](const MeasuredDepthRange& t) { return t.from - near < depth && depth < t.to + near; }))
       continue;
     if (const Vec3 p = path.point(depth); within.contains(p)) out.push_back(p);
   }

@@ -82,7 +82,6 @@ TEST(CollapseEdges, TakesOutShortEdgesAndKeepsEachCellSound) {
     }
 }
 
-/// Cells that the well's path crosses beyond its tube are kept, and so are their edges: a few short ones are left.
 TEST(CollapseEdges, LeavesFewShortEdgesWhereVerticesMoveToo) {
   for (const double deformation : {0.5, 1.0}) {
     const BuildResult result = built(deformation, Path::curved, Optimisation::on);

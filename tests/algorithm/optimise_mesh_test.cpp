@@ -144,6 +144,24 @@ TEST(OptimiseMesh, MovesNothingElse) {
   EXPECT_LT(std::abs(change), 1e-12 * volume);
 }
 
+/// A path that ends where its tube ends has no cells beyond it: all vertices that belong to transition cells alone
+/// move.
+TEST(OptimiseMesh, KeepsNoCellsAtTheEndsOfATubeThatThePathEndsWith) {
+  const BuildResult result = built(1.0, Path::curved, Optimisation::vertices);
+  const Mesh& mesh = result.mesh;
+  for (const WellConnection& c : mesh.wells[WellId(0)].connections)
+    ASSERT_EQ(mesh.cells.kind[c.cell], CellKind::radial);
+  std::set<VertexId> own;
+  std::set<VertexId> shared;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [a, b] = mesh.faces.cells[FaceId(f)];
+    const auto is_made = [&](CellId c) { return c.is_valid() && mesh.cells.kind[c] == CellKind::transition; };
+    for (const VertexId v : mesh.faces.loop(FaceId(f))) (is_made(a) && is_made(b) ? own : shared).insert(v);
+  }
+  for (const VertexId v : shared) own.erase(v);
+  EXPECT_EQ(result.summary.optimisation->vertices, static_cast<std::int64_t>(own.size()));
+}
+
 TEST(OptimiseMesh, LeavesARegularMeshAlone) {
   const Mesh before = built(0.0, Path::curved, Optimisation::off).mesh;
   const Mesh after = built(0.0, Path::curved, Optimisation::vertices).mesh;
