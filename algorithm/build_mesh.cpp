@@ -97,11 +97,12 @@ class Builder {
     const HostMultipliers multipliers(grid_);
     FluxDefects defects;
     connect_cells({grid_, host_, *locator_, multipliers, wells_}, assembly,
-                  options_.fluxes == Fluxes::consistent ? &defects : nullptr);
+                  options_.fluxes != Fluxes::two_point ? &defects : nullptr);
     for (std::string& note : edit_connections(grid_, host_, multipliers, assembly))
       result_.summary.notes.push_back(std::move(note));
-    if (options_.fluxes == Fluxes::consistent) assembly.mesh.stencils = consistent_fluxes(assembly.mesh, defects);
+    if (options_.fluxes != Fluxes::two_point) assembly.mesh.stencils = consistent_fluxes(assembly.mesh, defects);
     add_wells(assembly);
+    if (options_.fluxes == Fluxes::adapted) adapt_fluxes(assembly.mesh, defects);
     number_segments(assembly);
     clock_.lap("connections");
     for (const TransitionMesh& c : cavities_) result_.summary.cavities.push_back(c.summary);
@@ -309,6 +310,11 @@ class Builder {
     if (count > 0)
       result_.summary.notes.push_back(
           fmt::format("{} made cells lie wholly in inactive rock or rock without pores", count));
+  }
+
+  void adapt_fluxes(Mesh& mesh, const FluxDefects& defects) {
+    result_.summary.adaptation = adapt_transmissibilities(mesh, defects);
+    mesh.stencils.reset();
   }
 
   void add_wells(Assembly& assembly) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/adapted_flux.h"
 #include "algorithm/collapse_edges.h"
 #include "algorithm/optimise_mesh.h"
 #include "model/case.h"
@@ -31,8 +32,9 @@ enum class FaultPolicy {
 
 /// What the mesh has for flow between cells.
 enum class Fluxes {
-  two_point,  ///< transmissibilities
-  consistent  ///< multi-point fluxes too (consistent_flux.h)
+  two_point,   ///< transmissibilities
+  consistent,  ///< multi-point fluxes too (consistent_flux.h)
+  adapted      ///< transmissibilities fitted to multi-point flow towards the wells (adapted_flux.h)
 };
 
 /// Of the space that the mesh is made in (method.md §4).
@@ -120,6 +122,7 @@ struct BuildSummary {
   std::optional<EdgeCollapse> edge_collapse;     ///< unset: that step was not asked for
   std::optional<MeshOptimisation> optimisation;  ///< unset: not asked for, or there are no transition cells
   std::optional<AffineMap> metric_space;         ///< of the permeability metric; unset: the geometric one
+  std::optional<FluxAdaptation> adaptation;      ///< unset: transmissibilities are the geometric ones
   GridValidity validity;                         ///< of the host
   std::vector<StepTime> times;
   std::vector<std::string> notes;

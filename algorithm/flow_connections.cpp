@@ -13,6 +13,7 @@
 
 #include "algorithm/cell_path.h"
 #include "algorithm/host_transmissibility.h"
+#include "algorithm/linear_flux_error.h"
 #include "algorithm/radial_flow.h"
 #include "algorithm/rock_tensor.h"
 #include "algorithm/tube_flow.h"
@@ -139,7 +140,7 @@ class Connector {
     const double t = transmissibility(first, second, points, g, near);
     Flux out;
     out.transmissibility = t;
-    out.linear_error = linear_flux_error(first, second, t);
+    out.linear_error = linear_error(first, second, t);
     if (wants_defects_ && t > 0.0) {
       out.defects = defects(first, second);
       out.ratio = 1.0 / near.factor;
@@ -190,22 +191,12 @@ class Connector {
     c.linear_flux_error.push_back(flux.linear_error);
   }
 
-  /// |T (p_i - p_j) - K grad p.n A| / (|K n| A) for slopes of 1 along x, y, depth. K is the mean of the two cells',
-  /// times what makes its part along n that of both in series: a jump of permeability is no error.
-  [[nodiscard]] Vec3 linear_flux_error(const HalfFace& first, const HalfFace& second, double t) const {
-    const double area = first.area_vector.norm();
-    if (!(area > 0.0)) return Vec3::Zero();
-    const Eigen::Matrix3d& k1 = tensors_[first.cell.index()];
-    const Eigen::Matrix3d& k2 = tensors_[second.cell.index()];
-    const Vec3 n = first.area_vector / area;
-    const Vec3 both = 0.5 * (k1 + k2) * n;
-    const double d1 = std::abs(n.dot(first.centroid - mesh_.cells.center[first.cell]));
-    const double d2 = std::abs(n.dot(second.centroid - mesh_.cells.center[second.cell]));
-    const double resistance = d1 / n.dot(k1 * n) + d2 / n.dot(k2 * n);
-    if (!(n.dot(both) > 0.0) || !std::isfinite(resistance) || !(resistance > 0.0)) return Vec3::Zero();
-    const Vec3 flux = (d1 + d2) / resistance / n.dot(both) * area * both;
-    const Vec3 line = mesh_.cells.center[second.cell] - mesh_.cells.center[first.cell];
-    return (t * line - flux).cwiseAbs() / flux.norm();
+  [[nodiscard]] Vec3 linear_error(const HalfFace& first, const HalfFace& second, double t) const {
+    return linear_flux_error({first.centroid,
+                              first.area_vector,
+                              {mesh_.cells.center[first.cell], mesh_.cells.center[second.cell]},
+                              {tensors_[first.cell.index()], tensors_[second.cell.index()]}},
+                             t);
   }
 
   /// Without multiplier.

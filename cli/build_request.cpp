@@ -78,8 +78,8 @@ constexpr std::array<std::pair<std::string_view, Optimisation>, 4> optimisations
      {"on", Optimisation::on},
      {"edges", Optimisation::edges},
      {"vertices", Optimisation::vertices}}};
-constexpr std::array<std::pair<std::string_view, Fluxes>, 2> flux_kinds{
-    {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
+constexpr std::array<std::pair<std::string_view, Fluxes>, 3> flux_kinds{
+    {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}, {"adapted", Fluxes::adapted}}};
 
 constexpr std::array<std::pair<std::string_view, ProgressStyle>, 3> progress_styles{
     {{"auto", ProgressStyle::automatic}, {"plain", ProgressStyle::plain}, {"off", ProgressStyle::off}}};
@@ -223,9 +223,9 @@ constexpr std::array options{
                 "Taking out short edges of transition cells, moving inner vertices and centres for orthogonality, or "
                 "both [off]",
                 Kind::value, [](BuildRequest& r, const std::string& v) { r.optimise = choice(v, optimisations); }},
-    BuildOption{"fluxes", "two-point|consistent",
-                "Fluxes of the mesh file: two-point, or multi-point ones beside them [two-point]", Kind::value,
-                [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},
+    BuildOption{"fluxes", "two-point|consistent|adapted",
+                "Fluxes: two-point, multi-point ones beside them, or two-point ones fitted to these [two-point]",
+                Kind::value, [](BuildRequest& r, const std::string& v) { r.fluxes = choice(v, flux_kinds); }},
     BuildOption{"output", "OUT.h5", "The mesh file", Kind::value,
                 [](BuildRequest& r, const std::string& v) { r.output = not_empty(v, "a file"); }},
     BuildOption{"write", "FORMAT=PATH[,key=value...]",
@@ -461,7 +461,8 @@ std::string config_text(const BuildRequest& request) {
   table.insert("metric", name_in(request.metric.value_or(Metric::geometric), metrics));
   if (request.split.value_or(1) > 1) table.insert("split", *request.split);
   if (request.optimise) table.insert("optimise", name_in(*request.optimise, optimisations));
-  if (request.fluxes == Fluxes::consistent) table.insert("fluxes", name_in(Fluxes::consistent, flux_kinds));
+  if (request.fluxes.value_or(Fluxes::two_point) != Fluxes::two_point)
+    table.insert("fluxes", name_in(*request.fluxes, flux_kinds));
   const int levels = request.refinement_levels.value_or(-1);
   if (levels > 0)
     table.insert("refine", levels);

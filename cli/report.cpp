@@ -117,6 +117,18 @@ void write_optimisation(Text out, const BuildSummary& build) {
                    grouped(c.short_before), grouped(c.short_after), counted(c.edges_removed, "edge"),
                    counted(c.faces_removed, "face"), c.shortest_before, c.shortest_after);
   }
+  if (build.adaptation) {
+    const FluxAdaptation& a = *build.adaptation;
+    if (a.fields == 0)
+      fmt::format_to(out, "adapted     nothing: no well flows\n");
+    else
+      fmt::format_to(
+          out,
+          "adapted     {} of {} transmissibilities by more than 1 %, {} to the limit; imbalance {:.2g} to {:.2g}\n",
+          grouped(a.changed), grouped(a.connections), grouped(a.at_limit), a.imbalance_before, a.imbalance_after);
+    if (a.not_solved > 0)
+      fmt::format_to(out, "            {} not solved and left out\n", counted(a.not_solved, "flow"));
+  }
   if (!build.optimisation) return;
   const MeshOptimisation& o = *build.optimisation;
   fmt::format_to(out,
@@ -207,6 +219,16 @@ Json json_of(const EdgeCollapse& c) {
   return {{"short_before", c.short_before},       {"short_after", c.short_after},
           {"edges_removed", c.edges_removed},     {"faces_removed", c.faces_removed},
           {"shortest_before", c.shortest_before}, {"shortest_after", c.shortest_after}};
+}
+
+Json json_of(const FluxAdaptation& a) {
+  return {{"fields", a.fields},
+          {"not_solved", a.not_solved},
+          {"connections", a.connections},
+          {"changed", a.changed},
+          {"at_limit", a.at_limit},
+          {"imbalance_before", a.imbalance_before},
+          {"imbalance_after", a.imbalance_after}};
 }
 
 Json json_of(const AffineMap& space) {
@@ -301,6 +323,7 @@ std::string to_json(const BuildReport& report) {
   if (report.build.metric_space) json["metric_space"] = json_of(*report.build.metric_space);
   if (report.build.optimisation) json["optimisation"] = json_of(*report.build.optimisation);
   if (report.build.edge_collapse) json["optimisation"]["edges"] = json_of(*report.build.edge_collapse);
+  if (report.build.adaptation) json["adaptation"] = json_of(*report.build.adaptation);
   json["pore_volume"] = report.pore_volume;
   json["quality"] = Json::parse(report.quality.to_json());
   json["validity"] = Json::parse(to_json(report.build.validity));

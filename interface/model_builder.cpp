@@ -149,8 +149,8 @@ void ModelBuilder::set(std::string_view option, const std::string& value) {
       {{"auto", MappingMethod::automatic}, {"paper", MappingMethod::paper}}};
   static constexpr std::array<std::pair<std::string_view, FaultPolicy>, 2> policies{
       {{"stop", FaultPolicy::stop}, {"heal", FaultPolicy::heal}}};
-  static constexpr std::array<std::pair<std::string_view, Fluxes>, 2> fluxes{
-      {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}}};
+  static constexpr std::array<std::pair<std::string_view, Fluxes>, 3> fluxes{
+      {{"two-point", Fluxes::two_point}, {"consistent", Fluxes::consistent}, {"adapted", Fluxes::adapted}}};
   static constexpr std::array<std::pair<std::string_view, Metric>, 2> metrics{
       {{"geometric", Metric::geometric}, {"permeability", Metric::permeability}}};
   static constexpr std::array<std::pair<std::string_view, Optimisation>, 4> optimisations{

@@ -47,7 +47,7 @@ class Mesh:
 def build(case: Union[str, "os.PathLike[str]"], wells: Sequence[Union[str, "os.PathLike[str]", Well]] = (), deck_wells: str = "",
           deck_well_options: Optional[Well] = None, *, mapping: Literal["auto", "paper"] = "auto", optimise: Literal["off", "on", "edges", "vertices"] = "off",
           refine: Union[int, Literal["auto", "off"]] = "auto", fault_policy: Literal["stop", "heal"] = "stop", heal_throw: float = ...,
-          fluxes: Literal["two-point", "consistent"] = "two-point", threads: int = 0) -> Mesh:
+          fluxes: Literal["two-point", "consistent", "adapted"] = "two-point", threads: int = 0) -> Mesh:
     """deck_wells: "all", or names separated by commas."""
 
 def read(path: Union[str, "os.PathLike[str]"]) -> Mesh:

@@ -813,6 +813,27 @@ class ConsistentFluxes(Case):
         self.fail_with(2, "build", "box.GRDECL", "-o", "other.h5", "--fluxes", "exact", mention=["two-point", "exact"])
 
 
+class AdaptedFluxes(Case):
+    """Transmissibilities fitted to multi-point flow: in the mesh file and in every other output."""
+
+    def test_a_box_keeps_its_rate(self):
+        rates = []
+        for fluxes in ("two-point", "adapted"):
+            done = json.loads(self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=W", "-o", "mesh.h5", "--overwrite",
+                                           "--fluxes", fluxes, "--json"))
+            solved = json.loads(self.succeed("solve", "mesh.h5", "--json", "--boundary", "i-,i+=200bar", "--well", "W=190bar"))
+            rates.append(solved["wells"][0]["rate_m3_per_day"])
+        self.assertEqual((done["adaptation"]["fields"], done["adaptation"]["not_solved"]), (4, 0))  # a well, three linear ones
+        self.assertAlmostEqual(rates[1] / rates[0], 1.0, places=2)
+        self.fail_with(1, "solve", "mesh.h5", "--fluxes", "consistent", mention=["--fluxes consistent"])
+
+    def test_the_summary_says_what_changed(self):
+        said = self.succeed("build", "box.GRDECL", "--well", "well.csv,radius=9,name=W", "-o", "mesh.h5", "--fluxes", "adapted")
+        self.assertRegex(said, r"adapted +[\d,]+ of [\d,]+ transmissibilities")
+        said = self.succeed("build", "box.GRDECL", "-o", "host.h5", "--fluxes", "adapted")
+        self.assertIn("nothing: no well flows", said)
+
+
 class Map(Case):
     def setUp(self):
         super().setUp()

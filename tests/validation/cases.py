@@ -7,8 +7,9 @@ import exact
 import hosts
 import meshes
 from attribution import attribute
-from comparison import MESHES, Problem, compare
+from comparison import MESHES, Problem, build_knit, compare, solve
 from host_wells import MILLIDARCY
+from linear_pressure import pressure_error
 
 TOP = 2000.0
 DEFORMATIONS = (0.0, 0.5, 1.0)
@@ -106,6 +107,32 @@ def line_wells_metric(program, deformations=DEFORMATIONS):
             for kind in ("slanted", "horizontal") for r in (0.1, 0.01) for d in deformations}
 
 
+def dipping_problem(dip, ratio, **more):
+    """A vertical well through layers that dip along x, permeability along them and across: where a bore is not normal
+    to its layers."""
+    size = (50.0, 50.0, 10.0)
+    height = COUNT[2] * size[2]
+    grid = hosts.slab(COUNT, size, 0.0, (PERMEABILITY, PERMEABILITY, PERMEABILITY * ratio))
+    a = np.radians(dip)
+    grid.zcorn += np.tan(a) * size[0] * ((np.arange(2 * COUNT[0]) + 1) // 2)
+    across = np.cos(a) ** 2 + ratio * np.sin(a) ** 2  # k_xx / k_h
+    x, y = 15.3 * size[0], 14.8 * size[1]
+    solution = exact.PlanWell((x, y), 0.1, PERMEABILITY * np.diag([across, 1.0]), height)
+    path = [[x, y, TOP - 0.05 * height], [x, y, TOP + 1.05 * height + np.tan(a) * COUNT[0] * size[0]]]
+    return Problem(grid, [path], solution, with_top_and_base=True, **more)
+
+
+def dipping(program, dips=(0.0, 10.0, 20.0), ratios=(1.0, 0.1, 0.01)):
+    """{row: {knit, knit_consistent, corner_point, across: result of solve()}}"""
+    out = {}
+    for dip in dips:
+        for ratio in ratios:
+            row = compare(program, dipping_problem(dip, ratio, meshes=("knit", "corner_point")))
+            more = compare(program, dipping_problem(dip, ratio, meshes=("corner_point",), is_across_layers=True))
+            out[f"dip {dip:g}, k_v/k_h {ratio:g}"] = {**row, "across": more["corner_point"]}
+    return out
+
+
 def layered_problem(deform, mode="layered", **more):
     """Layers of 1000 mD and 1 mD in turn; flat, so that ln r stays exact; pillars are deformed."""
     size = (50.0, 50.0, 10.0)
@@ -138,4 +165,42 @@ def attribution_of_thiem(program, widths=(20.0, 50.0, 100.0), deformations=DEFOR
             rate = problem.exact.rates[0] / (meshes.BAR * meshes.DAY) * meshes.CENTIPOISE
             out[f"{width:g} m, deform {deform:g}"] = {"error": result["errors"][0],
                                                       "parts": {k: v / rate for k, v in parts.items()}}
+    return out
+
+
+def adapted_problems():
+    """{row: problems of one mesh}"""
+    return {
+        "Thiem, 50 m, deform 0": [thiem_problem(50.0, 0.0)],
+        "Thiem, 50 m, deform 0.5": [thiem_problem(50.0, 0.5)],
+        "Thiem, 50 m, deform 1": [thiem_problem(50.0, 1.0)],
+        "Thiem, 20 m, deform 1": [thiem_problem(20.0, 1.0)],
+        "60 m from the boundary, deform 1": [boundary_problem(60.0, 1.0)],
+        "two wells, deform 0.5": [two_wells_problem(0.5), two_wells_problem(0.5, (1.0, -1.0))],
+        "two wells, deform 1": [two_wells_problem(1.0), two_wells_problem(1.0, (1.0, -1.0))],
+        "layers of a factor 1,000, deform 1": [layered_problem(1.0)],
+        "horizontal, k_v/k_h 1, deform 1": [line_problem("horizontal", 1.0, 1.0)],
+        "slanted, k_v/k_h 0.01, deform 1, permeability metric": [
+            line_problem("slanted", 0.01, 1.0, options=("--metric", "permeability"))],
+    }
+
+
+def adapted(program, rows=None):
+    """{row: {two_point, adapted, consistent: [result of solve() for each problem]}} of our mesh; and with `linear`, the
+    largest errors of a linear pressure along x, y and depth past the shut wells."""
+    out = {}
+    for name, problems in adapted_problems().items():
+        if rows and name not in rows:
+            continue
+        row = {}
+        for fluxes in ("consistent", "adapted"):
+            mesh = program.folder / f"{fluxes}.h5"
+            build_knit(program, problems[0], mesh, "--fluxes", fluxes)
+            key = "adapted" if fluxes == "adapted" else "two_point"
+            row[key] = [solve(program, p, mesh) for p in problems]
+            row[f"{key}_linear"] = [pressure_error(program, mesh, axis) for axis in range(3)]
+            if fluxes == "consistent":
+                row["consistent"] = [solve(program, p, mesh, "--fluxes", "consistent") for p in problems]
+        out[name] = row
+        print(f"  {name}", flush=True)
     return out

@@ -27,12 +27,13 @@ class Problem:
     line: tuple = None           # two level points: pressures along it are compared
     layer: float = 10.0          # m, of the cells whose middles count as on the line
     meshes: tuple = MESHES
+    with_top_and_base: bool = False  # pressures are held there too
+    is_across_layers: bool = False   # indices in host cells: host_wells.across_layers()
 
 
 def compare(program, problem):
     """{mesh: {cells, rates, errors (relative, by well), line: [distance, error over drawdown]}}; `knit` has mode and
     radius too. With two-point fluxes; but for the finer grid {mesh}_consistent with multi-point ones."""
-    paths = [meshes.write_path(program.folder / f"well{n}.csv", points) for n, points in enumerate(problem.wells)]
     out = {}
     for name in problem.meshes:
         grid = hosts.split_columns(problem.grid, FINER) if name == "finer" else problem.grid
@@ -41,15 +42,14 @@ def compare(program, problem):
         more = {}
         fluxes = () if name == "finer" else ("--fluxes", "consistent")
         if name == "knit":
-            wells = [f"{program.folder}/well{n}.csv,name=W{n},bore={problem.bore}{problem.keys}"
-                     for n in range(len(paths))]
-            report = program.build(case, mesh, *fluxes, *problem.options, *(a for w in wells for a in ("--well", w)))
+            report = build_knit(program, problem, mesh, *fluxes)
             more = {"wells": [{k: w[k] for k in ("mode", "drainage_radius", "index_connections", "length_in_rock",
                                                  "length_meshed")} for w in report["wells"]]}
         else:
             program.build(case, mesh, *fluxes)
-            for n, path in enumerate(paths):
-                host_wells.add_well(mesh, grid, f"W{n}", path, problem.bore)
+            for n, path in enumerate(write_paths(program, problem)):
+                host_wells.add_well(mesh, grid, f"W{n}", path, problem.bore,
+                                    is_across_layers=problem.is_across_layers)
             if name == "corner_point":
                 more = {"non_orthogonality": meshes.mean_non_orthogonality(mesh)}
         out[name] = {**solve(program, problem, mesh), **more}
@@ -58,9 +58,24 @@ def compare(program, problem):
     return out
 
 
+def write_paths(program, problem):
+    return [meshes.write_path(program.folder / f"well{n}.csv", points) for n, points in enumerate(problem.wells)]
+
+
+def build_knit(program, problem, mesh, *options):
+    """Our mesh of the problem; the program's report."""
+    case = program.folder / "host.GRDECL"
+    hosts.write_grdecl(problem.grid, case)
+    wells = [f"{program.folder}/well{n}.csv,name=W{n},bore={problem.bore}{problem.keys}"
+             for n in range(len(write_paths(program, problem)))]
+    return program.build(case, mesh, *options, *problem.options, *(a for w in wells for a in ("--well", w)))
+
+
 def solve(program, problem, mesh, *options):
     table, result = program.folder / "hold.csv", mesh.with_name(mesh.stem + "_flow.h5")
     select = {"chosen": problem.chosen} if problem.chosen else {}
+    if problem.with_top_and_base:
+        select.update(with_top_and_base=True, thickness=0.05)
     meshes.hold_faces(mesh, table, problem.exact.pressure, **select)
     wells = [f"W{n}={p:.12g}bar" for n, p in enumerate(problem.exact.bore_pressures)]
     report = program.solve(mesh, result, "--hold", table, *options, *(a for w in wells for a in ("--well", w)))

@@ -118,6 +118,28 @@ class LineWell:
         return BORE_PRESSURE + self.drawdown * (1 - out)
 
 
+class PlanWell:
+    """A vertical well in rock of one tensor whose axes dip: p = ln(rho / rho_w) in plan, the line sink of
+    docs/algorithms/flow.md, at all depths. Nothing is closed: on layers that dip the pressure is held too."""
+
+    def __init__(self, place, bore, permeability, height):
+        """permeability: the 2 x 2 block of the tensor in plan, mD."""
+        value, axes = np.linalg.eigh(np.asarray(permeability, float))
+        self.place, self.axes = np.asarray(place, float), axes[:, ::-1]  # the larger first
+        self.ratio = np.sqrt(value[1] / value[0])
+        self.focal = bore ** 2 * (self.ratio - 1 / self.ratio)
+        self.bore = bore * (np.sqrt(self.ratio) + 1 / np.sqrt(self.ratio)) / 2
+        self.rates = [rate_unit(np.sqrt(value.prod()), height)]
+        self.bore_pressures = [BORE_PRESSURE]
+
+    def pressure(self, points):
+        x, y = ((points[:, :2] - self.place) @ self.axes).T
+        z = x / np.sqrt(self.ratio) + 1j * y * np.sqrt(self.ratio)
+        root = np.sqrt(z ** 2 + self.focal)
+        root = np.where((root * z.conj()).real < 0, -root, root)
+        return BORE_PRESSURE + np.log(np.abs(z + root) / 2 / self.bore)
+
+
 class Linear:
     """p = p0 + g x."""
 

@@ -148,6 +148,9 @@ def compare_hosts(program, shared, name, finer=3, radius=12.0, references=(5, 7)
         mesh = program.folder / f"{name}_{parts}_knit.h5"
         program.build(case, mesh, "--radius", r, *options)
         out[f"{parts} knit"] = solved(program, mesh, wells)
+        if parts == 1:
+            program.build(case, mesh, "--fluxes", "adapted", "--radius", r, *options)
+            out["1 adapted"] = solved(program, mesh, wells)
     for parts in references:
         fine = hosts.split_columns(grid, parts)
         for is_across_layers in (False, True):

@@ -83,11 +83,12 @@ class Faces:
         return np.nonzero(keep)[0]
 
 
-def hold_faces(mesh, table, pressure, with_top_and_base=False, chosen=lambda centroid, area_vector: slice(None)):
+def hold_faces(mesh, table, pressure, with_top_and_base=False, chosen=lambda centroid, area_vector: slice(None),
+               thickness=1e-6):
     """Writes the table of held pressures (bar, a function of points) at the centroids of the outer faces."""
     with h5py.File(mesh) as file:
         faces = Faces(file)
-        outer = faces.outer(file["cells/kind"][()], with_top_and_base)
+        outer = faces.outer(file["cells/kind"][()], with_top_and_base, thickness)
         outer = outer[~on_bores(file, faces.centroid[outer])]
     outer = outer[chosen(faces.centroid[outer], faces.area_vector[outer])]
     values = pressure(faces.centroid[outer])

@@ -5,12 +5,10 @@ import h5py
 import numpy as np
 
 import cases
-import exact
 import hosts
 import meshes
 from attribution import KINDS
-
-SLOPE = 0.01  # bar/m
+from linear_pressure import pressure_error
 
 
 def flux_errors(mesh, axis, is_consistent):
@@ -36,23 +34,6 @@ def flux_errors(mesh, axis, is_consistent):
         scale = k[pair[:, 0], axis] * np.linalg.norm(area_vector, axis=1)
         kinds = [f"{KINDS[a]} - {KINDS[b]}" for a, b in np.sort(kind[pair], axis=1)]
     return (given - wanted) / scale, np.array(kinds)
-
-
-def pressure_error(program, mesh, axis, *options):
-    """Largest error of a cell's pressure over the drop across the slab along the axis; radial cells aside."""
-    slope = np.zeros(3)
-    slope[axis] = SLOPE
-    with h5py.File(mesh) as file:
-        points = file["vertices"][()]
-        wells = [n.decode() for n in file["wells_order"][()]] if "wells_order" in file else []
-    field = exact.Linear(200.0 - float(points.mean(axis=0) @ slope), slope)
-    table, result = program.folder / "patch.csv", program.folder / "patch_flow.h5"
-    meshes.hold_faces(mesh, table, field.pressure, with_top_and_base=True)
-    program.solve(mesh, result, "--hold", table, *options, *(a for w in wells for a in ("--well", f"{w}=shut")))
-    with h5py.File(result) as file:
-        error = file["flow/pressure"][()] / meshes.BAR - field.pressure(file["cells/center"][()])
-        outside = file["cells/kind"][()] != meshes.RADIAL
-    return float(np.abs(error[outside]).max() / (SLOPE * np.ptp(points[:, axis])))
 
 
 def run(program, deformations=cases.DEFORMATIONS):

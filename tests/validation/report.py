@@ -5,6 +5,7 @@ the text
 around it is written by hand."""
 import json
 import re
+import statistics
 
 import pictures
 from fields import closer
@@ -53,6 +54,28 @@ def ours_alone(result):
     return table(["case", "two-point: rate / line, %", "consistent: rate / line, %", "cells"], rows)
 
 
+def adapted(result):
+    """Errors of rates, of the pressure along the line, and of a linear pressure past shut wells."""
+    rows = []
+    kinds = ("two_point", "adapted", "consistent")
+    for name, row in result.items():
+        for n in range(len(row["adapted"])):
+            label = name if n == 0 else f"{name}, one injects"
+            rates = [", ".join(percent(e) for e in row[k][n]["errors"]) for k in kinds]
+            line = " / ".join(percent(max(abs(e) for _, e in row[k][n]["line"])) for k in kinds)
+            linear = ["", ""] if n else [" / ".join(percent(e, 1) for e in row[f"{k}_linear"]) for k in kinds[:2]]
+            rows.append([label, *rates, line, *linear])
+    head = ["case", "two-point, %", "adapted, %", "consistent, %", "pressure along a line, %",
+            "linear pressure, two-point, %", "adapted, %"]
+    return table(head, rows)
+
+
+def dipping(result):
+    rows = [[name, *(percent(row[m]["errors"][0]) for m in ("knit", "knit_consistent", "corner_point", "across"))]
+            for name, row in result.items()]
+    return table(["case", "ours, %", "ours, consistent, %", "corner point, Peaceman, %", "corner point, bore across layers, %"], rows)
+
+
 def attribution(result):
     names = sorted({n for row in result.values() for n in row["parts"]})
     rows = [[name, percent(row["error"]), *(percent(row["parts"].get(n, 0.0)) for n in names)]
@@ -90,20 +113,45 @@ def field(result):
     return table(head, rows) + f"\n\nCells of ours, the corner-point grid, 4 × 4, 5 × 5: {cells}."
 
 
+REFERENCE = "7 across"
+HOSTS = {"1 knit": "ours, model's columns", "1 adapted": "ours, adapted, model's columns",
+         "1 peaceman": "corner point, model's columns", "3 knit": "ours, 3 × 3",
+         "3 peaceman": "corner point, 3 × 3", "5 peaceman": "corner point, 5 × 5", "7 peaceman": "corner point, 7 × 7",
+         "5 across": "bore across layers, 5 × 5"}
+
+
+def errors_of(result, key, boundary, reference=REFERENCE):
+    return {well: result[key][boundary][well] / rate - 1 for well, rate in result[reference][boundary].items()}
+
+
 def field_hosts(result):
+    """Against columns in 7 x 7 with the index of a bore across layers: means of errors, their spread, and wells nearer
+    than the plain corner-point grid's."""
     rows = []
-    names = {"1 knit": "ours, model's columns", "1 peaceman": "Peaceman, model's columns", "3 knit": "ours, 3 × 3",
-             "3 peaceman": "Peaceman, 3 × 3", "5 peaceman": "Peaceman, 5 × 5", "5 across": "bore across layers, 5 × 5"}
-    for key, label in names.items():
+    for key, label in HOSTS.items():
         cells = []
         for boundary in ("closed", "sides"):
-            for reference in ("7 peaceman", "7 across"):
-                right = result[reference][boundary]
-                errors = [result[key][boundary][w] / q - 1 for w, q in right.items()]
-                nearer = sum(abs(e) < abs(result["1 peaceman"][boundary][w] / q - 1) for e, (w, q) in zip(errors, right.items()))
-                cells.append(f"{percent(sum(errors) / len(errors))} / {percent(sum(map(abs, errors)) / len(errors))} / {nearer}")
+            errors = errors_of(result, key, boundary)
+            plain = errors_of(result, "1 peaceman", boundary)
+            nearer = sum(abs(e) < abs(plain[w]) for w, e in errors.items())
+            values = list(errors.values())
+            cells += [percent(statistics.mean(values)), percent(statistics.pstdev(values)),
+                      "" if key == "1 peaceman" else f"{nearer} of {len(values)}"]
         rows.append([label, f"{result[key]['cells']:,}", *cells])
-    head = ["wells and grid", "cells", *(f"{b}, against {r}" for b in ("closed", "200 bar") for r in ("Peaceman 7 × 7", "across layers 7 × 7"))]
+    head = ["wells and grid", "cells", *(f"{b}: {w}" for b in ("closed", "200 bar") for w in ("mean, %", "spread, %", "nearer"))]
+    return table(head, rows)
+
+
+def wells_of_hosts(result):
+    """Closed sides, well by well; bold where the plain corner-point grid is nearer than ours."""
+    keys = ("1 knit", "1 peaceman", "3 knit", "3 peaceman")
+    errors = {key: errors_of(result, key, "closed") for key in keys}
+    rows = []
+    for well, rate in result[REFERENCE]["closed"].items():
+        ours, plain, *fine = (errors[key][well] for key in keys)
+        name = f"**{well}**" if abs(plain) <= abs(ours) else well
+        rows.append([name, f"{rate:.4g}", *map(percent, (ours, plain, plain - ours, *fine))])
+    head = ["well", "rate, m³/d", "ours, %", "corner point, %", "of it the well's cells, %", "ours, 3 × 3, %", "corner point, 3 × 3, %"]
     return table(head, rows)
 
 
@@ -169,10 +217,10 @@ def verdicts(results):
 
 
 TABLES = {"thiem": compared, "boundary": compared, "two_wells": compared, "line_wells": compared, "line_wells_metric": ours_alone,
-          "layered": compared,
+          "layered": compared, "adapted": adapted, "dipping": dipping,
           "attribution": attribution, "patch": patch, "patch_pressure": patch_pressure, "field_SPE9": field,
-          "field_MODEL5": field, "hosts_SPE9": field_hosts, "pore_volume": pore_volume}
-FILES = {"patch_pressure": "patch"}
+          "field_MODEL5": field, "hosts_SPE9": field_hosts, "wells_SPE9": wells_of_hosts, "pore_volume": pore_volume}
+FILES = {"patch_pressure": "patch", "wells_SPE9": "hosts_SPE9"}
 
 
 def write(work, docs):

@@ -39,6 +39,8 @@ RUNS = {
     "line_wells": lambda program, shared: cases.line_wells(program),
     "line_wells_metric": lambda program, shared: cases.line_wells_metric(program),
     "layered": lambda program, shared: cases.layered(program),
+    "dipping": lambda program, shared: cases.dipping(program),
+    "adapted": lambda program, shared: cases.adapted(program),
     "attribution": lambda program, shared: cases.attribution_of_thiem(program),
     "patch": lambda program, shared: patch_test.run(program),
     "field_SPE9": lambda program, shared: fields.compare(program, shared, "SPE9"),
