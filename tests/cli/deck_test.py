@@ -160,8 +160,55 @@ class Deck(unittest.TestCase):
 
     def test_small_cells_at_the_bore_are_named(self):
         words = "steps may get very short; more even rings (--growth 1.2), fewer rings or sectors help"
-        self.assertIn(words, str(self.convert("--deck-wells", "P1", "--rings", "8")[1]))
-        self.assertNotIn(words, str(self.convert("--deck-wells", "P1", "--growth", "1.2")[1]))
+        self.assertIn(words, str(self.convert("--deck-wells", "P1", "--rings", "8", "--growth", "geometric")[1]))
+        self.assertNotIn(words, str(self.convert("--deck-wells", "P1")[1]))
+
+    def radial_cells(self, *arguments):
+        """Of P1, and the notes of the conversion."""
+        _, report = self.convert("--deck-wells", "P1", *arguments)
+        return report["wells"][0]["radial_cells"], " ".join(report["conversion"]["notes"])
+
+    def test_a_deck_of_several_phases_has_three_even_rings(self):
+        # 4 layers of 10 sectors; the deck has oil and water.
+        cells, notes = self.radial_cells()
+        self.assertEqual(cells, 4 * 10 * 3)
+        self.assertIn("meshes have 3 rings and ring widths that grow by 1.2, so that", notes)
+        cells, notes = self.radial_cells("--rings", "4")
+        self.assertEqual(cells, 4 * 10 * 4)
+        self.assertIn("meshes have ring widths that grow by 1.2, so that", notes)
+        cells, notes = self.radial_cells("--growth", "geometric")
+        self.assertEqual(cells, 4 * 10 * 3)
+        self.assertIn("meshes have 3 rings, so that", notes)
+        self.assertNotIn("several phases", self.radial_cells("--growth", "geometric", "--rings", "5")[1])
+
+    def test_the_choice_of_rings_is_the_same_as_giving_them(self):
+        """The mesh file of a default conversion is that of --rings 3 --growth 1.2, down to its pore volumes; of the mesh alone it is not."""
+        self.run_program("--deck-wells", "P1", "--write", "deck=A.DATA", "-o", "a.h5")
+        self.run_program("--deck-wells", "P1", "--write", "deck=B.DATA", "--rings", "3", "--growth", "1.2")
+        self.run_program("--deck-wells", "P1", "--write", "deck=C.DATA", "--rings", "3", "--growth", "geometric")
+        a, b, c = ((self.folder / f"{name}_parts" / "edit.inc").read_text() for name in "ABC")
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+
+    def test_one_phase_and_a_mesh_alone_keep_radii_in_geometric_progression(self):
+        result = self.run_program("--deck-wells", "P1", "--json", "-o", "mesh.h5")
+        self.assertEqual(json.loads(result.stdout)["wells"][0]["radial_cells"], 4 * 10 * 5)
+        self.change("OIL\nWATER\n", "WATER\n")
+        cells, notes = self.radial_cells()
+        self.assertEqual(cells, 4 * 10 * 5)
+        self.assertNotIn("several phases", notes)
+
+    def test_a_minimum_of_lift_gas_is_named(self):
+        gas_lift = "LIFTOPT\n 12500 5E-3 37 YES /\nWLIFTOPT\n P1 YES 150000 1.2 {} /\n H1 NO 150000 1.2 5 /\n/\nTSTEP\n 1 9 20 /"
+        self.change("TSTEP\n 1 9 20 /", gas_lift.format("3.0"))
+        text, report = self.convert()
+        notes = " ".join(report["conversion"]["notes"])
+        self.assertIn("WLIFTOPT has a minimum of lift gas for well P1 (item 5)", notes)
+        self.assertNotIn("well H1", notes)
+        self.assertIn(gas_lift.format("3.0"), text, "the deck is as it was")
+        for other in ("0", "-1.0", "1*"):
+            self.change("TSTEP\n 1 9 20 /", gas_lift.format(other))
+            self.assertNotIn("lift gas", " ".join(self.convert()[1]["conversion"]["notes"]))
 
     def test_the_pore_volume_of_the_aquifer_and_of_regions(self):
         text, report = self.convert("--deck-wells", "P1")
