@@ -198,7 +198,8 @@ constexpr std::array options{
     BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
     BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value,
                 set_default<"bore">},
-    BuildOption{"sectors", "N", "Cells around a well [10]", Kind::value, set_default<"sectors">},
+    BuildOption{"sectors", "N", "Cells around a well [10; deck of several phases to deck: 6]", Kind::value,
+                set_default<"sectors">},
     BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5; deck of several phases to deck: 3]",
                 Kind::value, set_default<"rings">},
     BuildOption{

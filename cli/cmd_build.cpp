@@ -279,8 +279,10 @@ std::string page_of(const BuildRequest& request, const Mesh& mesh, const Provena
 DeckRings choose_rings(BuildRequest& request, const std::optional<WholeDeck>& deck) {
   if (!deck || request.split.value_or(1) > 1) return {};
   DeckRings chosen = rings_for(*deck);
+  if (request.radial.sectors) chosen.sectors.reset();
   if (request.radial.rings) chosen.rings.reset();
   if (request.radial.growth) chosen.growth.reset();
+  if (chosen.sectors) request.radial.sectors = chosen.sectors;
   if (chosen.rings) request.radial.rings = chosen.rings;
   if (chosen.growth) request.radial.growth = chosen.growth;
   return chosen;

@@ -4,6 +4,7 @@
 #include "conversion/convert_deck.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -124,13 +125,16 @@ void DeckConverter::note_wells(const DeckConversion& conversion) {
 
 void DeckConverter::note_rings(const DeckConversion& conversion) {
   const DeckRings& chosen = conversion.chosen;
-  if ((!chosen.rings && !chosen.growth) || std::ranges::none_of(conversion.meshed, std::identity{})) return;
-  const std::string rings = chosen.rings ? fmt::format("{} rings", *chosen.rings) : "";
-  const std::string growth = chosen.growth ? fmt::format("ring widths that grow by {}", *chosen.growth) : "";
-  report_.notes.push_back(fmt::format(
-      "the deck has several phases: meshes have {}{}{}, so that cells at a bore are large enough for long steps; "
-      "--rings and --growth take others",
-      rings, chosen.rings && chosen.growth ? " and " : "", growth));
+  std::vector<std::string> parts;
+  if (chosen.sectors) parts.push_back(fmt::format("{} sectors", *chosen.sectors));
+  if (chosen.rings) parts.push_back(fmt::format("{} rings", *chosen.rings));
+  if (chosen.growth) parts.push_back(fmt::format("ring widths that grow by {}", *chosen.growth));
+  if (parts.empty() || std::ranges::none_of(conversion.meshed, std::identity{})) return;
+  report_.notes.push_back(
+      fmt::format("the deck has several phases: meshes have {}, so that cells at a bore are large enough for long "
+                  "steps; --sectors, "
+                  "--rings and --growth take others",
+                  fmt::join(parts, ", ")));
 }
 
 /// Flow's optimizer of gas lift demands the minimum from a well that comes on its tubing-head pressure with less, and
@@ -318,8 +322,9 @@ void refuse_what_cannot_be_converted(const WholeDeck& deck) {
 
 DeckRings rings_for(const WholeDeck& deck) {
   if (std::ranges::count(deck.keywords, DeckRole::phase, &DeckTextKeyword::role) < 2) return {};
-  // In 15 m the first ring is 4 m wide, where 5 rings with radii in geometric progression leave 0.2 m.
-  return {3, 1.2};
+  // In 15 m the first ring is 4 m wide, where 5 rings with radii in geometric progression leave 0.2 m; gas that comes
+  // out of solution goes to and fro between the wedges of many sectors.
+  return {6, 3, 1.2};
 }
 
 void open_all_completions(const CornerPointGrid& grid, Well& well) {

@@ -27,8 +27,10 @@ std::string deck_folder_of(const std::string& path);
 /// Throws ParseError: the first thing in the deck that cannot be converted. To be asked before any work.
 void refuse_what_cannot_be_converted(const WholeDeck& deck);
 
-/// Rings of a mesh that the converted deck is to run on. What is empty stays as it is for a mesh alone.
+/// Cells around the wells of a mesh that the converted deck is to run on. What is empty stays as it is for a mesh
+/// alone.
 struct DeckRings {
+  std::optional<int> sectors = {};
   std::optional<int> rings = {};
   std::optional<double> growth = {};  ///< ratio of successive ring widths
 };
