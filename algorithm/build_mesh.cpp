@@ -168,7 +168,10 @@ class Builder {
       clock_.lap("refinement");
       Assembly assembly = assemble(*mesh_grid_, host_, cavities_);
       clock_.lap("assembly");
-      if (assembly.unsound_cells.empty()) return assembly;
+      if (assembly.unsound_cells.empty()) {
+        host_.faces.forget_loops();
+        return assembly;
+      }
       for (const CellId cell : assembly.unsound_cells) leave_out_beside(assembly.mesh.cells.center[cell], left_out);
       host_ = build_host_mesh(*mesh_grid_);
       clock_.lap("host grid");
