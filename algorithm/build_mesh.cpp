@@ -89,6 +89,7 @@ class Builder {
     Assembly assembly = knit();
     optimise(assembly);
     if (mesh_grid_ != &grid_) move_back(assembly);
+    host_.faces.forget_loops();
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
     note_missing_properties();
@@ -168,10 +169,7 @@ class Builder {
       clock_.lap("refinement");
       Assembly assembly = assemble(*mesh_grid_, host_, cavities_);
       clock_.lap("assembly");
-      if (assembly.unsound_cells.empty()) {
-        host_.faces.forget_loops();
-        return assembly;
-      }
+      if (assembly.unsound_cells.empty()) return assembly;
       for (const CellId cell : assembly.unsound_cells) leave_out_beside(assembly.mesh.cells.center[cell], left_out);
       host_ = build_host_mesh(*mesh_grid_);
       clock_.lap("host grid");
