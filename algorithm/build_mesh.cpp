@@ -89,6 +89,7 @@ class Builder {
     Assembly assembly = knit();
     optimise(assembly);
     if (mesh_grid_ != &grid_) move_back(assembly);
+    host_.faces.forget_loops();
     transfer_properties(grid_, host_, *locator_, cavities_, assembly);
     clock_.lap("properties");
     note_missing_properties();

@@ -64,6 +64,11 @@ struct HostFaces {
   /// m3, NEWTRAN without multipliers (host_transmissibility.h); 0 with one active cell. Empty without permeability.
   IdVector<FaceId, double> transmissibility;
 
+  /// Once the mesh has them: 130 bytes for each cell of a large grid.
+  void forget_loops() {
+    vertex_start = LargeArray<std::int64_t>{0};
+    vertices = LargeArray<VertexId>{};
+  }
   [[nodiscard]] std::size_t size() const { return cells.size(); }
   [[nodiscard]] std::span<const VertexId> loop(FaceId face) const {
     const auto begin = static_cast<std::size_t>(vertex_start[face.index()]);

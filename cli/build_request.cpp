@@ -41,8 +41,11 @@ int count_from(int least, const std::string& text) {
   return value;
 }
 
+/// What `growth` has for radii in geometric progression.
+constexpr const char* geometric_growth = "geometric";
+
 double positive_ratio(const std::string& text) {
-  constexpr const char* expected = "a ratio above 0";
+  constexpr const char* expected = "a ratio above 0, or geometric";
   const double value = number<double>(text, expected);
   if (value <= 0.0) throw UsageError(fmt::format("expected {}, found '{}'", expected, text));
   return value;
@@ -153,7 +156,7 @@ bool set_radial(RadialChoice& radial, std::string_view key, const std::string& v
   } else if (key == "rings") {
     radial.rings = count_from(1, value);
   } else if (key == "growth") {
-    radial.growth = positive_ratio(value);
+    radial.growth = value == geometric_growth ? 0.0 : positive_ratio(value);
   } else if (key == "segments") {
     radial.segments = count_from(1, value);
   } else if (key == "mode") {
@@ -195,10 +198,15 @@ constexpr std::array options{
     BuildOption{"radius", "M", "Drainage radius of the radial meshes, m [15]", Kind::value, set_default<"radius">},
     BuildOption{"bore", "M", "Bore radius, m [0.1; a deck's well: its COMPDAT diameter]", Kind::value,
                 set_default<"bore">},
-    BuildOption{"sectors", "N", "Cells around a well [10]", Kind::value, set_default<"sectors">},
-    BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5]", Kind::value, set_default<"rings">},
-    BuildOption{"growth", "RATIO", "Ratio of successive ring widths [radii in geometric progression]", Kind::value,
-                set_default<"growth">},
+    BuildOption{"sectors", "N", "Cells around a well [10; deck of several phases to deck: 6]", Kind::value,
+                set_default<"sectors">},
+    BuildOption{"rings", "N", "Cells from the bore to the drainage radius [5; deck of several phases to deck: 3]",
+                Kind::value, set_default<"rings">},
+    BuildOption{
+        "growth", "RATIO|geometric",
+        "Ratio of successive ring widths, or radii in geometric progression [geometric; deck of several phases to "
+        "deck: 1.2]",
+        Kind::value, set_default<"growth">},
     BuildOption{"segments", "N", "Cells along a swept well [one for about one drainage radius]", Kind::value,
                 set_default<"segments">},
     BuildOption{"mode", "auto|layered|swept", "How the radial mesh follows the well [auto]", Kind::value,
@@ -279,7 +287,10 @@ void insert(toml::table& table, const RadialChoice& radial) {
   insert(table, "bore", radial.bore);
   insert(table, "sectors", radial.sectors);
   insert(table, "rings", radial.rings);
-  insert(table, "growth", radial.growth);
+  if (radial.growth == 0.0)
+    table.insert("growth", geometric_growth);
+  else
+    insert(table, "growth", radial.growth);
   insert(table, "segments", radial.segments);
   if (radial.mode) table.insert("mode", name_of(*radial.mode));
 }
@@ -443,7 +454,7 @@ RadialOptions resolve(const RadialChoice& own, const RadialChoice& all, const Ra
   out.bore_radius = choice.bore.value_or(start.bore_radius);
   out.sectors = choice.sectors.value_or(start.sectors);
   out.rings = choice.rings.value_or(start.rings);
-  if (choice.growth) out.growth = choice.growth;
+  if (choice.growth) out.growth = *choice.growth > 0.0 ? choice.growth : std::nullopt;
   if (choice.segments) out.segments = choice.segments;
   out.mode = choice.mode.value_or(start.mode);
   return out;

@@ -24,7 +24,7 @@ struct RadialChoice {
   std::optional<double> bore;
   std::optional<int> sectors;
   std::optional<int> rings;
-  std::optional<double> growth;
+  std::optional<double> growth;  ///< ratio of successive ring widths; 0: radii in geometric progression
   std::optional<int> segments;
   std::optional<MeshMode> mode;
 };

@@ -275,9 +275,23 @@ std::string page_of(const BuildRequest& request, const Mesh& mesh, const Provena
                       parse_build_facts(to_json(report), "the summary of this run")});
 }
 
+/// A deck of several phases wants larger cells at the bore than a mesh alone; what the user gives goes first.
+DeckRings choose_rings(BuildRequest& request, const std::optional<WholeDeck>& deck) {
+  if (!deck || request.split.value_or(1) > 1) return {};
+  DeckRings chosen = rings_for(*deck);
+  if (request.radial.sectors) chosen.sectors.reset();
+  if (request.radial.rings) chosen.rings.reset();
+  if (request.radial.growth) chosen.growth.reset();
+  if (chosen.sectors) request.radial.sectors = chosen.sectors;
+  if (chosen.rings) request.radial.rings = chosen.rings;
+  if (chosen.growth) request.radial.growth = chosen.growth;
+  return chosen;
+}
+
 int build(const GivenRequest& given) {
-  const BuildRequest request = complete(given.request);
+  BuildRequest request = complete(given.request);
   const std::optional<WholeDeck> deck = deck_to_convert(request);
+  const DeckRings chosen_rings = choose_rings(request, deck);
   OwnOutputs own;
   own.has_deck_folders = deck.has_value();
   if (request.report) own.page = {"report", *request.report};
@@ -316,7 +330,8 @@ int build(const GivenRequest& given) {
   std::vector<bool> meshed;
   for (const WellSummary& well : result.summary.wells) meshed.push_back(well.meshed || request.split.value_or(1) > 1);
   const DeckOutput write_deck = [&](const std::string& file, const std::string& folder, const std::string& name) {
-    report.conversion = convert_deck({*deck, in.source, in.wells, meshed, result.mesh}, {file, folder, name});
+    report.conversion =
+        convert_deck({*deck, in.source, in.wells, meshed, result.mesh, chosen_rings}, {file, folder, name});
     return std::vector<std::string>{fmt::format("{} beside it holds what it includes", name)};
   };
   const auto page = [&] { return page_of(request, result.mesh, provenance, report); };

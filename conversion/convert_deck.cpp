@@ -4,10 +4,12 @@
 #include "conversion/convert_deck.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -57,6 +59,7 @@ class DeckConverter {
         wells_(conversion.deck, conversion.source, conversion.wells, conversion.mesh, meshed_names(conversion), grid_,
                cells_) {
     note_wells(conversion);
+    note_rings(conversion);
   }
 
   ConversionReport convert() {
@@ -75,13 +78,16 @@ class DeckConverter {
     write_grid();
     write_file(place_.file, edits_.text_of(0));
     note_small_cells();
+    note_gas_lift();
     for (std::string& note : grid_.notes()) report_.notes.push_back(std::move(note));
     return std::move(report_);
   }
 
  private:
   void note_wells(const DeckConversion& conversion);
+  void note_rings(const DeckConversion& conversion);
   void note_small_cells();
+  void note_gas_lift();
   void convert_flags();
   void replace_grid(const std::string& aquifers);
   [[nodiscard]] bool keeps_any(std::size_t file) const;
@@ -115,6 +121,38 @@ void DeckConverter::note_wells(const DeckConversion& conversion) {
   for (const ScheduleWell& well : wells_.all())
     if (well.is_meshed && well.completed.empty() && !well.has_trajectory)
       report_.notes.push_back(fmt::format("well {} has a mesh, but the deck completes it nowhere", well.name));
+}
+
+void DeckConverter::note_rings(const DeckConversion& conversion) {
+  const DeckRings& chosen = conversion.chosen;
+  std::vector<std::string> parts;
+  if (chosen.sectors) parts.push_back(fmt::format("{} sectors", *chosen.sectors));
+  if (chosen.rings) parts.push_back(fmt::format("{} rings", *chosen.rings));
+  if (chosen.growth) parts.push_back(fmt::format("ring widths that grow by {}", *chosen.growth));
+  if (parts.empty() || std::ranges::none_of(conversion.meshed, std::identity{})) return;
+  report_.notes.push_back(
+      fmt::format("the deck has several phases: meshes have {}, so that cells at a bore are large enough for long "
+                  "steps; --sectors, "
+                  "--rings and --growth take others",
+                  fmt::join(parts, ", ")));
+}
+
+/// Flow's optimizer of gas lift demands the minimum from a well that comes on its tubing-head pressure with less, and
+/// does not give it before (docs/validation_decks.md#gas-lift-of-model5).
+void DeckConverter::note_gas_lift() {
+  std::set<std::string> named;
+  for (const DeckTextKeyword& keyword : deck_.keywords) {
+    if (keyword.role != DeckRole::gas_lift) continue;
+    for (const DeckTextRecord& record : keyword.records) {
+      const RecordItems items(deck_, keyword, record);
+      if (items.word(1, "NO").starts_with('Y') && items.positive(4)) named.emplace(trimmed(record.text(0)));
+    }
+  }
+  for (const std::string& name : named)
+    report_.notes.push_back(fmt::format(
+        "WLIFTOPT has a minimum of lift gas for well {} (item 5): flow may stop at its assertion `alq >= min_alq` when "
+        "the well comes on its tubing-head pressure limit, in the old deck as in the new one; 0 there avoids it",
+        name));
 }
 
 /// Where gas comes out of solution, a cell whose pores the flow replaces many times a step makes Newton's method fail
@@ -280,6 +318,13 @@ void refuse_what_cannot_be_converted(const WholeDeck& deck) {
   if (deck.refusals.empty()) return;
   const ParseError& first = deck.refusals.front();
   throw ParseError(first.where(), first.problem());
+}
+
+DeckRings rings_for(const WholeDeck& deck) {
+  if (std::ranges::count(deck.keywords, DeckRole::phase, &DeckTextKeyword::role) < 2) return {};
+  // In 15 m the first ring is 4 m wide, where 5 rings with radii in geometric progression leave 0.2 m; gas that comes
+  // out of solution goes to and fro between the wedges of many sectors.
+  return {6, 3, 1.2};
 }
 
 void open_all_completions(const CornerPointGrid& grid, Well& well) {

@@ -43,37 +43,39 @@ std::vector<double> shares(const std::vector<double>& values, const std::vector<
   return out;
 }
 
-struct Sample {
-  std::vector<double> values;
+/// What the faces of one kind are weighted with, in the order of their values.
+struct Weights {
   std::vector<double> areas;
-  std::vector<double> flows;  ///< m3/s without sign; 0 without a solution
+  std::vector<double> flows;  ///< m3/s without sign; empty without a solution
 
-  void add(double value, double area, double flow) {
-    values.push_back(value);
-    areas.push_back(area);
-    flows.push_back(flow);
-  }
-  Distribution distribution(FaceMeasure measure) {
-    Distribution out;
-    if (values.empty()) return out;
-    const auto weighted = [&](const std::vector<double>& weights) {
-      return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0) / sum(weights);
-    };
-    out.mean = sum(values) / static_cast<double>(values.size());
-    out.area_mean = weighted(areas);
-    out.area_share = shares(values, areas, classes_of(measure));
-    out.flow_share = shares(values, flows, classes_of(measure));
-    if (!out.flow_share.empty()) out.flow_mean = weighted(flows);
-    out.max = *std::max_element(values.begin(), values.end());
-    out.p99 = quantile(values, 0.99);  // last: it reorders the values
-    return out;
+  void reserve(std::size_t faces, bool has_flow) {
+    areas.reserve(faces);
+    if (has_flow) flows.reserve(faces);
   }
 };
 
-/// Flow through each face without sign, m3/s; 0 where it is not known.
+/// Takes the values, in an order of its own, and leaves none.
+Distribution distribution(FaceMeasure measure, std::vector<double>& values, const Weights& weights) {
+  Distribution out;
+  if (values.empty()) return out;
+  const auto weighted = [&](const std::vector<double>& by) {
+    return std::inner_product(values.begin(), values.end(), by.begin(), 0.0) / sum(by);
+  };
+  out.mean = sum(values) / static_cast<double>(values.size());
+  out.area_mean = weighted(weights.areas);
+  out.area_share = shares(values, weights.areas, classes_of(measure));
+  out.flow_share = shares(values, weights.flows, classes_of(measure));
+  if (!out.flow_share.empty()) out.flow_mean = weighted(weights.flows);
+  out.max = *std::max_element(values.begin(), values.end());
+  out.p99 = quantile(values, 0.99);  // last: it reorders the values
+  values = {};
+  return out;
+}
+
+/// Flow through each face without sign, m3/s; 0 where it is not known. Empty without a solution.
 IdVector<FaceId, double> flow_of_faces(const Mesh& mesh) {
+  if (!mesh.flow || mesh.flow->flux.size() != mesh.connections.size()) return {};
   IdVector<FaceId, double> out(mesh.faces.size(), 0.0);
-  if (!mesh.flow || mesh.flow->flux.size() != mesh.connections.size()) return out;
   for (std::size_t i = 0; i < mesh.connections.size(); ++i) {
     const FaceId face = mesh.connections.face[ConnectionId(i)];
     const double flux = mesh.flow->flux[ConnectionId(i)];
@@ -110,11 +112,15 @@ class QualityPass {
         flow_(flow_of_faces(mesh)),
         smallest_area_(1e-9 * median_face_area(geometry_)) {}
 
+  /// Of a large mesh the arrays of faces are most of what a run of the program holds: each is gone after its last use.
   QualityReport run() {
     counts();
+    reserve();
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) face(FaceId(f));
-    distributions();
+    for (std::size_t p = 0; p < face_pair_count; ++p) distributions(p);
+    connections();
     cells();
+    geometry_ = {};
     transmissibilities();
     report_.conservation = conservation(mesh_);
     report_.linear_flux = linear_flux_errors(mesh_);
@@ -134,6 +140,17 @@ class QualityPass {
       report_.max_volume = *largest;
     }
     if (mesh_.faces.size() > 0) report_.min_edge = report_.min_face_area = std::numeric_limits<double>::infinity();
+  }
+
+  void reserve() {
+    std::array<std::size_t, face_pair_count> faces{};
+    for (const auto& [first, second] : mesh_.faces.cells)
+      if (second.is_valid())
+        ++faces[static_cast<std::size_t>(face_pair(mesh_.cells.kind[first], mesh_.cells.kind[second]))];
+    for (std::size_t p = 0; p < face_pair_count; ++p) {
+      weights_[p].reserve(faces[p], has_flow());
+      for (auto* values : {&non_orthogonality_[p], &planarity_[p], &skewness_[p]}) values->reserve(faces[p]);
+    }
   }
 
   void face(FaceId id) {
@@ -179,13 +196,15 @@ class QualityPass {
     const Vec3& b = mesh_.cells.center[second];
     const double angle = non_orthogonality(face.area_vector, b - a);
     const FacePair pair = face_pair(mesh_.cells.kind[first], mesh_.cells.kind[second]);
-    sample(FaceMeasure::non_orthogonality, pair).add(angle, face.area, flow_[id]);
-    sample(FaceMeasure::planarity, pair).add(planarity(loop, face), face.area, flow_[id]);
+    const auto p = static_cast<std::size_t>(pair);
+    weigh(id, weights_[p]);
+    non_orthogonality_[p].push_back(angle);
+    planarity_[p].push_back(planarity(loop, face));
     if (angle > quality_limit::severe_non_orthogonality) ++report_.faces_above_70_degrees;
     if (angle >= quality_limit::reversed_face && pair != FacePair::host) ++report_.made_faces_beyond_90_degrees;
 
     const double skew = skewness(loop, face, a, b - a, 0.2);
-    sample(FaceMeasure::skewness, pair).add(skew, face.area, flow_[id]);
+    skewness_[p].push_back(skew);
     report_.max_skewness = std::max(report_.max_skewness, skew);
     if (skew > quality_limit::skewness) ++report_.faces_above_skewness_4;
 
@@ -196,25 +215,41 @@ class QualityPass {
     if (weight < quality_limit::interpolation_weight) ++report_.faces_below_weight_005;
   }
 
-  void distributions() {
-    for (std::size_t i = 0; i < mesh_.connections.size(); ++i) {
-      const FaceId face = mesh_.connections.face[ConnectionId(i)];
-      if (!face.is_valid() || geometry_[face].area <= smallest_area_) continue;
-      const auto& [a, b] = mesh_.connections.cells[ConnectionId(i)];
-      const FacePair pair = face_pair(mesh_.cells.kind[a], mesh_.cells.kind[b]);
-      sample(FaceMeasure::k_non_orthogonality, pair)
-          .add(mesh_.connections.k_non_orthogonality[ConnectionId(i)], geometry_[face].area, flow_[face]);
-    }
+  void distributions(std::size_t p) {
+    PairQuality& out = report_.pairs[p];
+    out.faces = static_cast<std::int64_t>(non_orthogonality_[p].size());
+    out.area = sum(weights_[p].areas);
+    out.non_orthogonality = distribution(FaceMeasure::non_orthogonality, non_orthogonality_[p], weights_[p]);
+    out.planarity = distribution(FaceMeasure::planarity, planarity_[p], weights_[p]);
+    out.skewness = distribution(FaceMeasure::skewness, skewness_[p], weights_[p]);
+    weights_[p] = {};
+  }
+
+  /// K-non-orthogonality belongs to connections, of which a face may have none.
+  void connections() {
+    std::array<std::vector<double>, face_pair_count> angles;
+    const auto each = [&](const auto& take) {
+      for (std::size_t i = 0; i < mesh_.connections.size(); ++i) {
+        const ConnectionId id(i);
+        const FaceId face = mesh_.connections.face[id];
+        if (!face.is_valid() || geometry_[face].area <= smallest_area_) continue;
+        const auto& [a, b] = mesh_.connections.cells[id];
+        take(static_cast<std::size_t>(face_pair(mesh_.cells.kind[a], mesh_.cells.kind[b])), id, face);
+      }
+    };
+    std::array<std::size_t, face_pair_count> counts{};
+    each([&](std::size_t p, ConnectionId, FaceId) { ++counts[p]; });
     for (std::size_t p = 0; p < face_pair_count; ++p) {
-      const auto pair = static_cast<FacePair>(p);
-      const auto measured = [&](FaceMeasure measure) { return sample(measure, pair).distribution(measure); };
-      PairQuality& out = report_.pairs[p];
-      out.faces = static_cast<std::int64_t>(sample(FaceMeasure::non_orthogonality, pair).values.size());
-      out.area = sum(sample(FaceMeasure::non_orthogonality, pair).areas);
-      out.non_orthogonality = measured(FaceMeasure::non_orthogonality);
-      out.k_non_orthogonality = measured(FaceMeasure::k_non_orthogonality);
-      out.planarity = measured(FaceMeasure::planarity);
-      out.skewness = measured(FaceMeasure::skewness);
+      angles[p].reserve(counts[p]);
+      weights_[p].reserve(counts[p], has_flow());
+    }
+    each([&](std::size_t p, ConnectionId id, FaceId face) {
+      weigh(face, weights_[p]);
+      angles[p].push_back(mesh_.connections.k_non_orthogonality[id]);
+    });
+    for (std::size_t p = 0; p < face_pair_count; ++p) {
+      report_.pairs[p].k_non_orthogonality = distribution(FaceMeasure::k_non_orthogonality, angles[p], weights_[p]);
+      weights_[p] = {};
     }
   }
 
@@ -257,8 +292,10 @@ class QualityPass {
     }
   }
 
-  Sample& sample(FaceMeasure measure, FacePair pair) {
-    return samples_[static_cast<std::size_t>(measure)][static_cast<std::size_t>(pair)];
+  [[nodiscard]] bool has_flow() const { return flow_.size() > 0; }
+  void weigh(FaceId face, Weights& weights) const {
+    weights.areas.push_back(geometry_[face].area);
+    if (has_flow()) weights.flows.push_back(flow_[face]);
   }
 
   const Mesh& mesh_;
@@ -266,7 +303,9 @@ class QualityPass {
   IdVector<FaceId, double> flow_;
   double smallest_area_;  ///< m2; faces not above it have no meaningful angle
   QualityReport report_;
-  std::array<std::array<Sample, face_pair_count>, face_measure_count> samples_;
+  // Of the inner faces, by pair of cells.
+  std::array<Weights, face_pair_count> weights_;
+  std::array<std::vector<double>, face_pair_count> non_orthogonality_, planarity_, skewness_;
   std::vector<Vec3> points_;
 };
 

@@ -74,6 +74,9 @@ constexpr WholeDeckRule refused(std::string_view name, std::uint16_t sections, R
 constexpr auto rules = std::to_array<WholeDeckRule>({
     {"DIMENS", runspec, F::record, R::dimensions},
     {"WELLDIMS", runspec, F::record, R::well_dimensions},
+    {"OIL", runspec, F::flag, R::phase},
+    {"WATER", runspec, F::flag, R::phase},
+    {"GAS", runspec, F::flag, R::phase},
     {"SATOPTS", runspec, F::record, R::saturation_options, direction.reason, direction.advice},
     {"ENDSCALE", runspec, F::record, R::saturation_options, direction.reason, direction.advice},
     {"NONNC", runspec_or_grid, F::flag, R::dropped, "every connection of the new grid is a non-neighbour one"},
@@ -157,6 +160,7 @@ constexpr auto rules = std::to_array<WholeDeckRule>({
     {"WELTRAJ", schedule, F::list, R::stations},
     {"COMPTRAJ", schedule, F::list, R::perforations},
     {"WLIST", schedule, F::list, R::well_names},
+    {"WLIFTOPT", schedule, F::list, R::gas_lift},
     refused("COMPDATL", schedule, local),
     refused("WELSPECL", schedule, local),
     refused("COMPSEGL", schedule, local),
@@ -226,7 +230,7 @@ constexpr auto kept_tables = std::to_array<std::string_view>(
      "OPTIONS3", "TSTEP",    "DATES",    "TIME",     "TUNING",   "TUNINGDP", "VFPPROD",  "VFPINJ",   "DRSDT",
      "DRVDT",    "NUPCOL",   "NEXTSTEP", "WCONPROD", "WCONINJE", "WCONHIST", "WCONINJH", "WELTARG",  "WECON",
      "WTEST",    "GCONPROD", "GCONINJE", "GRUPTREE", "WEFAC",    "GEFAC",    "UDQ",      "ACTIONX",  "WELSEGS",
-     "WSEGVALV", "WSEGAICD", "WSEGSICD", "WSEGITER", "DRSDTR",   "DRVDTR",   "DRSDTCON", "LIFTOPT",  "WLIFTOPT"});
+     "WSEGVALV", "WSEGAICD", "WSEGSICD", "WSEGITER", "DRSDTR",   "DRVDTR",   "DRSDTCON", "LIFTOPT"});
 
 constexpr WholeDeckRule kept_rule{"", tables, F::open, R::kept};
 constexpr WholeDeckRule array_rule{"", with_arrays, F::array, R::array};

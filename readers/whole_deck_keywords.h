@@ -35,6 +35,8 @@ enum class DeckRole : std::uint8_t {
   stations,            ///< WELTRAJ
   perforations,        ///< COMPTRAJ
   well_names,          ///< WLIST
+  phase,               ///< OIL, WATER, GAS: pass, and are counted
+  gas_lift,            ///< WLIFTOPT: passes, and is looked into
   cell_count_array     ///< unknown, with just as many numbers as the grid has cells
 };
 

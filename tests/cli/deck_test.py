@@ -140,14 +140,14 @@ class Deck(unittest.TestCase):
         self.assertTrue(report["wells"][0]["meshed"], report["wells"][0])
         first, second = keyword(text, "COMPDAT")[:2]
         upper = [r for r in first if r[0] == "'P1'"]
-        self.assertEqual((len(upper), len(second)), (20, 20))  # two layers of ten sectors each
+        self.assertEqual((len(upper), len(second)), (12, 12))  # two layers of six sectors each
         self.assertFalse({r[1] for r in upper} & {r[1] for r in second})
         # The deck's own connections of the others stay: three cells of H1, four of I1 with their stated factor.
         self.assertEqual(len([r for r in first if r[0] == "'H1'"]), 3)
         self.assertEqual({r[7] for r in first if r[0] == "'I1'"}, {"12.5"})
-        # Shut by cell: the ten cells of the layer, which are P1's own.
+        # Shut by cell: the six cells of the layer, which are P1's own.
         shut = [r[2] for r in keyword(text, "WELOPEN")[0] if r[0] == "'P1'"]
-        self.assertEqual(len(shut), 10)
+        self.assertEqual(len(shut), 6)
         self.assertLessEqual(set(shut), {r[1] for r in upper})
         # A skin of 2 in the second keyword, none in the first: 2 pi Kh / CF differs by 2 from what it is without.
         self.change("2* 0.2 1* 2 /", "2* 0.2 1* 0 /")
@@ -160,8 +160,55 @@ class Deck(unittest.TestCase):
 
     def test_small_cells_at_the_bore_are_named(self):
         words = "steps may get very short; more even rings (--growth 1.2), fewer rings or sectors help"
-        self.assertIn(words, str(self.convert("--deck-wells", "P1", "--rings", "8")[1]))
-        self.assertNotIn(words, str(self.convert("--deck-wells", "P1", "--growth", "1.2")[1]))
+        self.assertIn(words, str(self.convert("--deck-wells", "P1", "--rings", "8", "--growth", "geometric")[1]))
+        self.assertNotIn(words, str(self.convert("--deck-wells", "P1")[1]))
+
+    def radial_cells(self, *arguments):
+        """Of P1, and the notes of the conversion."""
+        _, report = self.convert("--deck-wells", "P1", *arguments)
+        return report["wells"][0]["radial_cells"], " ".join(report["conversion"]["notes"])
+
+    def test_a_deck_of_several_phases_has_three_even_rings_of_six_sectors(self):
+        # 4 layers; the deck has oil and water.
+        cells, notes = self.radial_cells()
+        self.assertEqual(cells, 4 * 6 * 3)
+        self.assertIn("meshes have 6 sectors, 3 rings, ring widths that grow by 1.2, so that", notes)
+        cells, notes = self.radial_cells("--rings", "4")
+        self.assertEqual(cells, 4 * 6 * 4)
+        self.assertIn("meshes have 6 sectors, ring widths that grow by 1.2, so that", notes)
+        cells, notes = self.radial_cells("--growth", "geometric", "--sectors", "8")
+        self.assertEqual(cells, 4 * 8 * 3)
+        self.assertIn("meshes have 3 rings, so that", notes)
+        self.assertNotIn("several phases", self.radial_cells("--growth", "geometric", "--rings", "5", "--sectors", "10")[1])
+
+    def test_the_choice_of_rings_is_the_same_as_giving_them(self):
+        """Down to the pore volumes of the cells."""
+        self.run_program("--deck-wells", "P1", "--write", "deck=A.DATA")
+        self.run_program("--deck-wells", "P1", "--write", "deck=B.DATA", "--sectors", "6", "--rings", "3", "--growth", "1.2")
+        self.run_program("--deck-wells", "P1", "--write", "deck=C.DATA", "--growth", "geometric")
+        a, b, c = ((self.folder / f"{name}_parts" / "edit.inc").read_text() for name in "ABC")
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+
+    def test_one_phase_and_a_mesh_alone_keep_radii_in_geometric_progression(self):
+        result = self.run_program("--deck-wells", "P1", "--json", "-o", "mesh.h5")
+        self.assertEqual(json.loads(result.stdout)["wells"][0]["radial_cells"], 4 * 10 * 5)
+        self.change("OIL\nWATER\n", "WATER\n")
+        cells, notes = self.radial_cells()
+        self.assertEqual(cells, 4 * 10 * 5)
+        self.assertNotIn("several phases", notes)
+
+    def test_a_minimum_of_lift_gas_is_named(self):
+        gas_lift = "LIFTOPT\n 12500 5E-3 37 YES /\nWLIFTOPT\n P1 YES 150000 1.2 {} /\n H1 NO 150000 1.2 5 /\n/\nTSTEP\n 1 9 20 /"
+        self.change("TSTEP\n 1 9 20 /", gas_lift.format("3.0"))
+        text, report = self.convert()
+        notes = " ".join(report["conversion"]["notes"])
+        self.assertIn("WLIFTOPT has a minimum of lift gas for well P1 (item 5)", notes)
+        self.assertNotIn("well H1", notes)
+        self.assertIn(gas_lift.format("3.0"), text, "the deck is as it was")
+        for other in ("0", "-1.0", "1*"):
+            self.change("TSTEP\n 1 9 20 /", gas_lift.format(other))
+            self.assertNotIn("lift gas", " ".join(self.convert()[1]["conversion"]["notes"]))
 
     def test_the_pore_volume_of_the_aquifer_and_of_regions(self):
         text, report = self.convert("--deck-wells", "P1")
@@ -176,7 +223,7 @@ class Deck(unittest.TestCase):
         self.change(" P1 SHUT 5 5 1 /", " P1 SHUT 3* 2 2 /")
         text, _ = self.convert("--deck-wells", "P1")
         numbers = [r for r in keyword(text, "COMPLUMP")[0] if r[0] == "'P1'"]
-        self.assertEqual(sorted(r[5] for r in numbers), ["1"] * 10 + ["2"] * 10)
+        self.assertEqual(sorted(r[5] for r in numbers), ["1"] * 6 + ["2"] * 6)
 
     def test_refusals(self):
         for old, new, word in (
