@@ -54,7 +54,7 @@ std::size_t count_of(const Mesh& mesh, CellKind kind) {
 TEST(CollapseEdges, TakesOutShortEdgesAndKeepsEachCellSound) {
   for (const Path path : {Path::vertical, Path::deviated, Path::curved, Path::horizontal})
     for (const double deformation : {0.5, 1.5}) {
-      if (has_few_rounds && path != Path::curved) continue;
+      if (has_few_rounds && (path != Path::curved || deformation > 1.0)) continue;
       const BuildResult before = built(deformation, path, Optimisation::off);
       const BuildResult after = built(deformation, path, Optimisation::edges);
       ASSERT_TRUE(after.summary.edge_collapse);
